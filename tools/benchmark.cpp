@@ -19,6 +19,7 @@
 #include "drivers/take/text_file.h"
 #include "tools/accuracy/accuracy_benchmark.h"
 #include "tools/accuracy/accuracy_report.h"
+#include "tools/accuracy/carving_trial.h"
 #include "tools/accuracy/evidence_report.h"
 #include "tools/accuracy/paper_report.h"
 #include "tools/accuracy/sweep_plan.h"
@@ -259,7 +260,7 @@ void RunBenchmark(const BenchmarkOptions& options) {
   std::vector<EvidenceRow> evidence;
   if (Wants(options, kEvidencePart)) {
     evidence = RunEvidence(options);
-    PrintNow(EvidenceTable(evidence));
+    PrintNow(EvidenceTable(evidence) + CarvingLines());
   }
   if (options.out.empty()) return;
   ReplaceText(options.out / "accuracy.md",

@@ -13,6 +13,7 @@
 #include "core/reconstruction/camera/sensor_plane_table.h"
 #include "core/reconstruction/carving/carver.h"
 #include "core/reconstruction/carving/floor_shadows.h"
+#include "core/reconstruction/carving/miss_rates.h"
 #include "core/reconstruction/silhouette/segmenter.h"
 #include "daemon/pipeline/pipeline.h"
 #include "drivers/take/take_layout.h"
@@ -78,6 +79,7 @@ void Carve(std::span<const std::vector<Shading>> shadings, double voxel_mm, Take
       const SampledView& view = *moment.views[c];
       views.push_back({&tables[c], &view.trimap.person, view.X_CW, &view.trimap.unknown});
     }
+    WeighOnce(views, false);
     carver.Carve(views, moment.voxels);
   }
 }

@@ -31,6 +31,8 @@ CarveStage::CarveStage(const std::vector<CameraCalibration>& cameras, Synchroniz
       shadows_(cameras),
       rays_(rays),
       carver_(options),
+      is_hard_(options.hard_silhouettes),
+      miss_rates_(cameras.size(), options.several_people),
       recorders_(recorders) {
   MOCAP_CHECK(cameras.size() <= kMaxCameras);
   for (const CameraCalibration& camera : cameras) cameras_.emplace_back(camera);
@@ -67,6 +69,7 @@ Synchronizer::Verdict CarveStage::Next(CarvedSet& set) {
     load_control_->AddSet(set.capture_ns, set.complete_ns, TimelineNs(), synchronizer_.PeriodNs());
     PublishLoad();
   }
+  if (!is_hard_) miss_rates_.Weigh(views_, set.cameras, set.capture_ns);
   carver_.Carve(views_, set.grid, &set.doubtful);
   set.person_box_W = carver_.person_box_W();
   const std::int64_t carve_ns = SteadyNs() - begin_ns;
@@ -85,12 +88,14 @@ void CarveStage::OfferToWatch(const VoxelGrid& hull) {
     copy.capture_ns = synchronizer_.set_ns();
     copy.cameras.clear();
     copy.X_CW.clear();
+    copy.miss_rates.clear();
     copy.hull = hull;
     copy.trimaps.resize(views_.size());
     for (std::size_t i = 0; i < cameras_.size(); ++i) {
       if (!synchronizer_.members()[i] || cameras_[i].front.is_blind) continue;
       copy.trimaps[copy.cameras.size()] = cameras_[i].front.trimap;
       copy.X_CW.push_back(cameras_[i].front.X_CW);
+      copy.miss_rates.push_back(miss_rates_.Of(static_cast<int>(i)));
       copy.cameras.push_back(static_cast<int>(i));
     }
     return true;

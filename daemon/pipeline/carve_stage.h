@@ -11,6 +11,7 @@
 #include "core/reconstruction/camera/sensor_plane_table.h"
 #include "core/reconstruction/carving/carver.h"
 #include "core/reconstruction/carving/floor_shadows.h"
+#include "core/reconstruction/carving/miss_rates.h"
 #include "daemon/pipeline/health_watch.h"
 #include "daemon/pipeline/load_control.h"
 #include "daemon/pipeline/moment_history.h"
@@ -107,6 +108,8 @@ class CarveStage {
   FloorShadows shadows_;
   const int rays_;
   Carver carver_;
+  const bool is_hard_;
+  MissRates miss_rates_;
   StageRecorders& recorders_;
   std::vector<CarvingView> views_;
   std::vector<ShadedView> shaded_;

@@ -56,7 +56,8 @@ HealthWatch::HealthWatch(const std::vector<CameraCalibration>& cameras)
     : tables_(cameras.begin(), cameras.end()),
       people_watch_(cameras),
       shifts_(cameras.size()),
-      unknown_(cameras.size()) {
+      unknown_(cameras.size()),
+      miss_rates_(cameras.size()) {
   tap_.Open(kSetsQueued, {}, bell_);
   thread_ = std::thread([this] { Run(); });
 }
@@ -87,6 +88,9 @@ void HealthWatch::Add(const SeenSet& set) {
   LookForPeople(set);
   CompareHulls(set);
   MeasureUnknown(set);
+  const std::scoped_lock lock(mutex_);
+  for (std::size_t i = 0; i < set.miss_rates.size(); ++i)
+    miss_rates_[static_cast<std::size_t>(set.cameras[i])] = set.miss_rates[i];
 }
 
 void HealthWatch::LookForPeople(const SeenSet& set) {
@@ -138,8 +142,10 @@ SeenPeople HealthWatch::People() const {
 std::vector<CameraHealth> HealthWatch::Health() const {
   const std::scoped_lock lock(mutex_);
   std::vector<CameraHealth> health;
-  for (std::size_t i = 0; i < shifts_.size(); ++i)
+  for (std::size_t i = 0; i < shifts_.size(); ++i) {
     health.push_back(HealthOf(shifts_[i], unknown_[i]));
+    health.back().miss_rate = miss_rates_[i];
+  }
   return health;
 }
 

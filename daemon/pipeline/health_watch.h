@@ -25,6 +25,8 @@ struct CameraHealth {
   double overlap = 0;                  ///< Mean intersection over union.
   /// Share of unknown pixels where the camera shows people, in the latest moments; empty before.
   std::optional<double> unknown_share = {};
+  /// Share of the people that the camera calls empty while the others show them (`MissRates`).
+  std::optional<double> miss_rate = {};
 };
 
 /// The pictures of a set that will be compared, and what was carved.
@@ -33,6 +35,7 @@ struct SeenSet {
   std::vector<int> cameras;
   std::vector<Trimap> trimaps;
   std::vector<RigidTransform> X_CW;
+  std::vector<std::optional<double>> miss_rates;  ///< As carving knows them.
   VoxelGrid hull;
 };
 using SetTap = Tap<SeenSet>;
@@ -72,6 +75,7 @@ class HealthWatch {
   mutable std::mutex mutex_;
   std::vector<std::deque<SilhouetteShift>> shifts_;  ///< The latest per camera.
   std::vector<std::deque<double>> unknown_;          ///< Likewise, shares.
+  std::vector<std::optional<double>> miss_rates_;
   SeenPeople people_;
   Doorbell bell_;
   SetTap tap_;

@@ -73,6 +73,11 @@ void WriteHealth(const ServiceReport& report, MetricsWriter& writer) {
     if (!camera.health.unknown_share) continue;
     writer.Sample(fmt::format("camera=\"{}\"", camera.name), *camera.health.unknown_share);
   }
+  writer.Family("camera_miss_ratio", "gauge", "Share of people called empty that others show.");
+  for (const CameraStatus& camera : cameras) {
+    if (!camera.health.miss_rate) continue;
+    writer.Sample(fmt::format("camera=\"{}\"", camera.name), *camera.health.miss_rate);
+  }
 }
 
 void WriteStages(const ServiceReport& report, MetricsWriter& writer) {

@@ -21,6 +21,8 @@ constexpr double kDarkest = 0.6, kBrightest = 1.5;
 /// Where simulated people were unknown to this share, errors were several times as large:
 /// docs/contrast.md has the table.
 constexpr double kMostUnknown = 0.1;
+/// Likewise. Silhouettes of real people before good cameras miss up to 6 %.
+constexpr double kMostMissed = 0.1;
 
 using Lines = std::vector<std::string>;
 
@@ -127,18 +129,28 @@ void ComplainOfMounts(const std::vector<CameraStatus>& cameras, Lines& lines) {
 
 /// Stays while nobody is there: who has walked in goes to look.
 void ComplainOfContrast(const std::vector<CameraStatus>& cameras, Lines& lines) {
-  Group alike;
+  Group alike, missing;
   for (const CameraStatus& camera : cameras) {
-    const double share = camera.health.unknown_share.value_or(0);
-    if (camera.state != CameraState::kStreaming || share < kMostUnknown) continue;
-    alike.Add(camera.name, 100 * share);
+    if (camera.state != CameraState::kStreaming) continue;
+    const double unknown = camera.health.unknown_share.value_or(0);
+    const double missed = camera.health.miss_rate.value_or(0);
+    if (unknown >= kMostUnknown) alike.Add(camera.name, 100 * unknown);
+    if (missed >= kMostMissed) missing.Add(camera.name, 100 * missed);
   }
-  if (alike.names.empty()) return;
-  const std::string rest = fmt::format(
-      " tell {} % of the people from what is behind them: clothes look like the wall or the floor; "
-      "wear others, or change the light",
-      alike.Range(0));
-  lines.push_back(CamerasDo(alike.names, cameras.size(), "cannot" + rest, "cannot" + rest));
+  if (!alike.names.empty()) {
+    const std::string rest = fmt::format(
+        " tell {} % of the people from what is behind them: clothes look like the wall or the "
+        "floor; wear others, or change the light",
+        alike.Range(0));
+    lines.push_back(CamerasDo(alike.names, cameras.size(), "cannot" + rest, "cannot" + rest));
+  }
+  if (!missing.names.empty()) {
+    const std::string rest = fmt::format(
+        " {} % of the people whom the others show: clean the lens, learn the background again, or "
+        "wear other clothes",
+        missing.Range(0));
+    lines.push_back(CamerasDo(missing.names, cameras.size(), "misses" + rest, "miss" + rest));
+  }
 }
 
 }  // namespace

@@ -109,20 +109,21 @@ std::string AgreementText(const PipelineStatus& status) {
 }
 
 std::string CameraTable(const ServiceReport& report) {
-  std::string text = fmt::format("{:<16}{:<10}{:>9}{:>12}{:>9}{:>9}{:>9}{:>8}{:>8}{:>8}{:>9}\n",
-                                 "camera", "state", "fps", "frames", "dropped", "late", "damaged",
-                                 "trust", "off px", "light", "unknown");
+  const auto percent = [](std::optional<double> share) {
+    return share ? fmt::format("{:.0f} %", 100 * *share) : "-";
+  };
+  std::string text = fmt::format(
+      "{:<16}{:<10}{:>9}{:>12}{:>9}{:>9}{:>9}{:>8}{:>8}{:>8}{:>9}{:>9}\n", "camera", "state", "fps",
+      "frames", "dropped", "late", "damaged", "trust", "off px", "light", "unknown", "missed");
   for (std::size_t i = 0; i < report.now.status.cameras.size(); ++i) {
     const CameraStatus& camera = report.now.status.cameras[i];
     const bool known = IsCompared(camera);
-    const std::optional<double> unknown = camera.health.unknown_share;
-    text += fmt::format("{:<16}{:<10}{:>9.1f}{:>12}{:>9}{:>9}{:>9}{:>8}{:>8}{:>8}{:>9}\n",
-                        camera.name, NameOf(camera.state), report.now.frames_per_second[i],
-                        camera.frames, camera.dropped, camera.late, camera.torn,
-                        known ? fmt::format("{:.0f} %", 100 * camera.health.overlap) : "-",
-                        known ? fmt::format("{:.1f}", camera.health.shift_px.norm()) : "-",
-                        fmt::format("{:.0f} %", 100 * camera.light),
-                        unknown ? fmt::format("{:.0f} %", 100 * *unknown) : "-");
+    text += fmt::format(
+        "{:<16}{:<10}{:>9.1f}{:>12}{:>9}{:>9}{:>9}{:>8}{:>8}{:>8}{:>9}{:>9}\n", camera.name,
+        NameOf(camera.state), report.now.frames_per_second[i], camera.frames, camera.dropped,
+        camera.late, camera.torn, known ? percent(camera.health.overlap) : "-",
+        known ? fmt::format("{:.1f}", camera.health.shift_px.norm()) : "-", percent(camera.light),
+        percent(camera.health.unknown_share), percent(camera.health.miss_rate));
   }
   return text;
 }
@@ -202,6 +203,7 @@ JsonObject CameraJson(const CameraStatus& camera, double frames_per_second) {
   json.Add("light", camera.light, 3);
   json.Add("nudged_px", camera.nudged_px, 2);
   json.Add("unknown_share", camera.health.unknown_share.value_or(-1), 3);
+  json.Add("miss_rate", camera.health.miss_rate.value_or(-1), 3);
   return json;
 }
 

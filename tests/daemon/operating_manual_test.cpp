@@ -109,6 +109,7 @@ std::vector<std::string> EveryComplaint() {
   poor.nudged_px = 1.2;
   poor.health = {.moments = 9, .shift_px = {6, 0}, .overlap = 0.7};
   add(CameraState::kStreaming, 25).health.unknown_share = 0.4;
+  add(CameraState::kStreaming, 25).health.miss_rate = 0.25;
   for (const char* master : {"cam1", "cam1", "cam3", "cam3"}) {
     add(CameraState::kStreaming, 0).waits_for = master;
   }

@@ -1,7 +1,6 @@
 #include "tools/accuracy/evidence_trial.h"
 
 #include <algorithm>
-#include <bit>
 #include <chrono>
 #include <cstdint>
 #include <deque>
@@ -17,19 +16,10 @@
 #include "core/reconstruction/silhouette/segmenter.h"
 #include "daemon/pipeline/pose_sink.h"
 #include "tools/accuracy/accuracy_trial.h"
+#include "tools/accuracy/carving_trial.h"
 
 namespace mocap {
 namespace {
-
-Silhouette SilhouetteOfMask(ImageView<const std::uint8_t> mask) {
-  Silhouette silhouette(mask.width(), mask.height());
-  for (int y = 0; y < mask.height(); ++y) {
-    for (int x = 0; x < mask.width(); ++x) {
-      if (mask(x, y) != 0) silhouette.Set(x, y);
-    }
-  }
-  return silhouette;
-}
 
 // Unknown pixels change little from frame to frame.
 constexpr std::size_t kFramesPerTrimap = 10;
@@ -68,12 +58,6 @@ class SightKeeper : public CameraDriver {
   Segmenter segmenter_;
   CameraSight& sight_;
 };
-
-std::int64_t CountVoxels(const VoxelGrid& grid) {
-  std::int64_t count = 0;
-  for (const std::uint64_t word : grid.words()) count += std::popcount(word);
-  return count;
-}
 
 class VolumeKeeper : public PoseSink {
  public:

@@ -9,6 +9,7 @@
 #include "config/camera_files.h"
 #include "config/open_studio.h"
 #include "core/errors.h"
+#include "core/reconstruction/carving/miss_rates.h"
 #include "core/reconstruction/carving/unknown_share.h"
 #include "daemon/pipeline/pipeline.h"
 #include "drivers/take/take_layout.h"
@@ -147,7 +148,9 @@ VoxelGrid TakePictures::Carve(const std::vector<TakePicture>& pictures) {
     views.push_back({&tables_[static_cast<std::size_t>(picture.camera)], &picture.trimap->person,
                      picture.X_CW, &picture.trimap->unknown});
   }
-  if (!views.empty()) carver_.Carve(views, grid);
+  if (views.empty()) return grid;
+  WeighOnce(views, false);
+  carver_.Carve(views, grid);
   return grid;
 }
 

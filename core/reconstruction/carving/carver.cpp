@@ -10,6 +10,7 @@
 #include "core/errors.h"
 #include "core/reconstruction/carving/octant_view.h"
 #include "core/reconstruction/carving/room_blocks.h"
+#include "core/reconstruction/carving/sample_bits.h"
 #include "core/reconstruction/carving/window_map.h"
 
 namespace mocap {
@@ -19,36 +20,6 @@ constexpr int kMostViews = Carver::kMostViews;
 constexpr int kLargestBlock_voxels = RoomBlocks::kBlock_voxels;
 constexpr int kLevels = 5;  // From the largest block to a voxel.
 static_assert(1 << (kLevels - 1) == kLargestBlock_voxels);
-constexpr int kSamplesPerSide = 2;
-constexpr int kSamples = kSamplesPerSide * kSamplesPerSide * kSamplesPerSide;
-constexpr int kMajority = kSamples / 2 + 1;
-
-// Finds which of eight voxels have a majority of their samples: one byte per sample, one bit per
-// voxel. Adds all voxels at once, bit-sliced, halving the bytes in each step.
-std::uint8_t Majorities(std::uint64_t samples) {
-  static_assert(kSamples == 8 && kMajority == 5);
-  const std::uint64_t a = samples >> 32;
-  std::uint64_t ones = samples ^ a, twos = samples & a;
-  const std::uint64_t b = ones >> 16, c = twos >> 16;
-  const std::uint64_t carry = ones & b, either = twos ^ c;
-  ones ^= b;
-  std::uint64_t fours = (twos & c) | (either & carry);
-  twos = either ^ carry;
-  const std::uint64_t d = ones >> 8, e = twos >> 8, f = fours >> 8;
-  const std::uint64_t carry_two = ones & d, any_two = twos ^ e;
-  ones ^= d;
-  const std::uint64_t carry_four = (twos & e) | (any_two & carry_two);
-  twos = any_two ^ carry_two;
-  const std::uint64_t eights = (fours & f) | ((fours ^ f) & carry_four);
-  fours ^= f ^ carry_four;
-  return static_cast<std::uint8_t>(eights | (fours & (twos | ones)));
-}
-
-// The samples of one voxel, one bit per sample.
-std::uint8_t SamplesOf(std::uint64_t samples, int voxel) {
-  return static_cast<std::uint8_t>((samples >> voxel & 0x0101010101010101) * 0x0102040810204080 >>
-                                   56);
-}
 
 int Fewest(std::size_t views) { return std::max(2, (static_cast<int>(views) + 1) / 2); }
 
@@ -74,8 +45,9 @@ class Carver::Walk {
     Eigen::Vector3i first;  // Within the grid.
     int side = 0;           // [voxels]
     int level = 0;
-    int seeing = 0;     // Cameras that have all of it in their silhouette.
-    int undecided = 0;  // Cameras that have not decided yet: the first in `views`.
+    int seeing = 0;       // Cameras that have all of it in their silhouette.
+    int outweighing = 0;  // Cameras that must show it, since some call it empty.
+    int undecided = 0;    // Cameras that have not decided yet: the first in `views`.
     std::array<std::uint8_t, kMostViews> views;
     // Index of the view's frame that contains the block: kLanes · level + octant, or kNoFrame.
     std::array<std::uint8_t, kMostViews> frames;
@@ -100,6 +72,14 @@ class Carver::Walk {
   static Eigen::Vector3i VoxelAt(const Block& block, int voxel) {
     return block.first + Eigen::Vector3i(voxel & 1, voxel >> 1 & 1, voxel >> 2);
   }
+  // What a view carves at once of that which it calls empty: enough others can no longer show it.
+  template <typename Bits>
+  Bits Carved(std::size_t view, Bits outside, Bits denied) const {
+    const auto others = static_cast<int>(views_.size()) - 1;
+    const int outweighed_by = views_[view].outweighed_by;
+    if (outweighed_by > others) return outside;
+    return outweighed_by + least_outweighed_by_ > others - 1 ? outside & denied : 0;
+  }
   float VoxelMm() const { return static_cast<float>(voxel_mm_); }
   Eigen::Vector3f MiddleOf(const Block& block) const {
     return (block.first.cast<float>().array() + static_cast<float>(block.side) / 2) * VoxelMm();
@@ -111,6 +91,7 @@ class Carver::Walk {
   double voxel_mm_;
   bool several_people_, is_hard_;
   int fewest_ = 0;
+  int least_outweighed_by_ = 0;
   VoxelGrid* grid_ = nullptr;
   std::vector<Eigen::Vector3i>* doubtful_ = nullptr;
   RoomBlocks room_;
@@ -170,6 +151,9 @@ void Carver::Walk::Prepare() {
     windows_[views_.size()].Measure(*all_[i].silhouette, all_[i].unknown, *box);
     views_.push_back(all_[i]);
   }
+  least_outweighed_by_ = kNeverOutweighed;
+  for (const CarvingView& view : views_)
+    least_outweighed_by_ = std::min(least_outweighed_by_, view.outweighed_by);
 }
 
 // Tests the octants of a block in its i-th undecided view.
@@ -201,13 +185,16 @@ void Carver::Walk::Visit(const Block& block) {
   // Samples lie closer to the centre than the corners of the voxels.
   const float half = (static_cast<float>(side) - 1.0f / kSamplesPerSide) / 2 * VoxelMm();
   std::uint8_t alive = OctantsInGrid(block);
-  std::array<std::uint8_t, kMostViews> inside, decided, framed;
+  std::uint8_t denied = block.outweighing > 0 ? 0xff : 0;
+  std::array<std::uint8_t, kMostViews> inside, outside, decided, framed;
   for (int i = 0; i < block.undecided; ++i) {
     const OctantDecisions decisions = Judge(block, i, spread, half, framed[i]);
-    alive &= static_cast<std::uint8_t>(~decisions.outside);
+    alive &= static_cast<std::uint8_t>(~Carved(block.views[i], decisions.outside, denied));
     if (alive == 0) return;
+    denied |= decisions.outside;
     inside[i] = decisions.inside;
-    decided[i] = decisions.inside | decisions.unseen;
+    outside[i] = decisions.outside;
+    decided[i] = decisions.inside | decisions.unseen | decisions.outside;
   }
   Block octant;
   octant.side = side;
@@ -215,10 +202,12 @@ void Carver::Walk::Visit(const Block& block) {
   for (; alive != 0; alive &= static_cast<std::uint8_t>(alive - 1)) {
     const int bit = std::countr_zero(alive);
     octant.seeing = block.seeing;
+    octant.outweighing = block.outweighing;
     octant.undecided = 0;
     for (int i = 0; i < block.undecided; ++i) {
       const bool is_framed = block.frames[i] == kNoFrame && (framed[i] >> bit & 1);
       octant.seeing += inside[i] >> bit & 1;
+      octant.outweighing += (outside[i] >> bit & 1) * views_[block.views[i]].outweighed_by;
       // The next view overwrites the entry if this one is decided: faster than a branch.
       octant.views[octant.undecided] = block.views[i];
       octant.frames[octant.undecided] =
@@ -226,7 +215,7 @@ void Carver::Walk::Visit(const Block& block) {
                     : block.frames[i];
       octant.undecided += ~decided[i] >> bit & 1;
     }
-    if (octant.seeing + octant.undecided < fewest_) continue;
+    if (octant.seeing + octant.undecided < std::max(fewest_, octant.outweighing)) continue;
     octant.first = block.first + side * Eigen::Vector3i(bit & 1, bit >> 1 & 1, bit >> 2);
     if (octant.undecided == 0)
       Fill(octant);
@@ -248,13 +237,15 @@ bool Carver::Walk::VisitSamples(const Block& block) {
     if (block.frames[i] == kNoFrame) return false;
   std::uint8_t asked = OctantsInGrid(block);
   std::uint64_t alive = ~std::uint64_t{0};
+  std::uint64_t denied = block.outweighing > 0 ? alive : 0;
   std::array<SampleDecisions, kMostViews> decisions;
   const Eigen::Vector3f middle = MiddleOf(block);
   for (int i = 0; i < block.undecided; ++i) {
     decisions[i] = octant_views_[block.views[i]].CoarsePassSamples(
         FramesOf(block, i), block.frames[i] % OctantFrames::kLanes, middle, VoxelMm() / 2,
         VoxelMm() / kSamplesPerSide / 2, asked);
-    alive &= ~decisions[i].outside;
+    alive &= ~Carved(block.views[i], decisions[i].outside, denied);
+    denied |= decisions[i].outside;
     asked &= Majorities(alive);
     if (asked == 0) return true;
   }
@@ -265,14 +256,16 @@ bool Carver::Walk::VisitSamples(const Block& block) {
 // The octants of a voxel are its samples.
 void Carver::Walk::VisitVoxel(const Block& voxel) {
   std::uint64_t alive = SpreadBits(0xff);
+  std::uint64_t denied = voxel.outweighing > 0 ? alive : 0;
   std::array<SampleDecisions, kMostViews> decisions;
   for (int i = 0; i < voxel.undecided; ++i) {
     std::uint8_t framed;
     const OctantDecisions samples = Judge(voxel, i, VoxelMm() / kSamplesPerSide / 2, 0, framed);
     decisions[i] = {SpreadBits(samples.inside), SpreadBits(samples.outside),
                     SpreadBits(samples.unseen), SpreadBits(samples.unknown)};
-    alive &= ~decisions[i].outside;
+    alive &= ~Carved(voxel.views[i], decisions[i].outside, denied);
     if (alive == 0) return;
+    denied |= decisions[i].outside;
   }
   Decide(voxel, {decisions.data(), static_cast<std::size_t>(voxel.undecided)}, 1, alive);
 }
@@ -297,14 +290,18 @@ void Carver::Walk::Decide(const Block& block, std::span<const SampleDecisions> d
       unknown[n] |= unknown[n - 1] & v.unknown;
       seen[n] |= seen[n - 1] & (v.inside | v.unknown);
     }
-    open |= ~(v.inside | v.outside | v.unseen | v.unknown);
+    open |= ~(v.inside | v.unseen | v.unknown);
   }
   open &= alive;
   const int needed = std::max(fewest_ - block.seeing, 0);
   const std::uint64_t possible = needed <= views ? alive & seen[needed] & ~open : 0;
   std::uint64_t agrees = possible;
-  for (int n = 1; n <= views; ++n) agrees &= ~unknown[n] | person[std::max(n - block.seeing, 0)];
-  const std::uint64_t doubtful = doubtful_ ? possible & ~agrees : 0;
+  for (int n = 0; n <= views; ++n) {
+    const int shown = std::max(n + block.outweighing - block.seeing, 0);
+    agrees &= ~unknown[n] | (shown <= views ? person[shown] : 0);
+  }
+  const bool may_doubt = doubtful_ && block.outweighing == 0;
+  const std::uint64_t doubtful = may_doubt ? possible & ~agrees : 0;
   asked &= Majorities(agrees | doubtful | open);
   const std::uint8_t agreed = Majorities(agrees);
   for (; asked != 0; asked &= static_cast<std::uint8_t>(asked - 1)) {
@@ -347,6 +344,7 @@ Carver::Walk::Verdict Carver::Walk::AskSample(const Block& block,
   const int bit = 8 * sample + voxel;
   int persons = block.seeing;
   int unknown = 0;
+  int outweighing = block.outweighing;
   for (std::size_t i = 0; i < decisions.size(); ++i) {
     const SampleDecisions& known = decisions[i];
     if (known.unseen >> bit & 1) continue;
@@ -355,14 +353,20 @@ Carver::Walk::Verdict Carver::Walk::AskSample(const Block& block,
       kind = WindowMap::Kind::kInside;
     else if (known.unknown >> bit & 1)
       kind = WindowMap::Kind::kUnknown;
+    else if (known.outside >> bit & 1)
+      kind = WindowMap::Kind::kOutside;
     else
       kind = Look(block.views[i], p_W);
-    if (kind == WindowMap::Kind::kOutside) return Verdict::kEmpty;
+    if (kind == WindowMap::Kind::kOutside) {
+      outweighing += views_[block.views[i]].outweighed_by;
+      if (outweighing >= static_cast<int>(views_.size())) return Verdict::kEmpty;
+    }
     if (kind == WindowMap::Kind::kInside) ++persons;
     if (kind == WindowMap::Kind::kUnknown) ++unknown;
   }
   if (persons + unknown < fewest_) return Verdict::kEmpty;
-  return persons >= unknown ? Verdict::kPerson : Verdict::kDoubtful;
+  if (persons >= unknown + outweighing) return Verdict::kPerson;
+  return outweighing > 0 ? Verdict::kEmpty : Verdict::kDoubtful;
 }
 
 // Evaluates the definition at one point; empty if the camera does not see it.

@@ -34,12 +34,17 @@ struct CameraEye {
   }
 };
 
+/// More cameras than there are in a set.
+inline constexpr int kNeverOutweighed = 64;
+
 /// What one camera sees, and its pose at that moment. Borrowed for the call.
 struct CarvingView {
   const SensorPlaneTable* table = nullptr;
   const Silhouette* silhouette = nullptr;
   RigidTransform X_CW;
   const Silhouette* unknown = nullptr;  ///< As in a trimap; null: no pixel is.
+  /// How many others must show the person where this one calls it empty: from 1.
+  int outweighed_by = kNeverOutweighed;
 
   /// Box around everything that may be a person; empty if no pixel shows one.
   std::optional<PixelBox> Box() const;

@@ -2,6 +2,8 @@
 
 #include <bit>
 
+#include "core/reconstruction/carving/sample_bits.h"
+
 namespace mocap {
 namespace {
 

@@ -22,12 +22,6 @@ struct OctantDecisions {
 /// What a camera knows about the samples of eight voxels.
 using kernels::SampleDecisions;
 
-/// Moves each bit to the lowest bit of its own byte.
-constexpr std::uint64_t SpreadBits(std::uint8_t bits) {
-  return ((bits & 0x7fu) * 0x02040810204081u & 0x0101010101010101u) | std::uint64_t{bits & 0x80u}
-                                                                          << 49;
-}
-
 using kernels::OctantFrames;
 
 /// One camera of a set, prepared to test many blocks. Borrows the table and the windows.

@@ -52,7 +52,8 @@ void RoomBlocks::SetEyes(std::span<const CarvingView> views) {
         {.ahead = PlaneOf(X_CW, {0, 0, 1}),
          .picture = ConeOf(X_CW, table.WindowOf(0, 0, table.width_px() - 1, table.height_px() - 1)),
          .all_picture = ConeOf(X_CW, table.InnerWindow()),
-         .box = ConeOf(X_CW, table.WindowOf(box->left, box->top, box->right, box->bottom))});
+         .box = ConeOf(X_CW, table.WindowOf(box->left, box->top, box->right, box->bottom)),
+         .outweighed_by = view.outweighed_by});
   }
 }
 
@@ -77,7 +78,7 @@ bool RoomBlocks::MayHoldFlesh(const Vector3& middle_W, double half_mm) const {
   const auto is_inside = [&](const Plane& plane) {
     return plane.n_W.dot(middle_W) + plane.d - half_mm * plane.reach >= 0;
   };
-  int seeing = 0;
+  int seeing = 0, outweighing = 0;
   for (const Eye& eye : eyes_) {
     const bool is_seen =
         reaches_inside(eye.ahead) && std::ranges::all_of(eye.picture, reaches_inside);
@@ -86,9 +87,12 @@ bool RoomBlocks::MayHoldFlesh(const Vector3& middle_W, double half_mm) const {
       ++seeing;
       continue;
     }
-    if (is_inside(eye.ahead) && std::ranges::all_of(eye.all_picture, is_inside)) return false;
+    const bool is_empty = is_inside(eye.ahead) && std::ranges::all_of(eye.all_picture, is_inside);
+    if (!is_empty) continue;
+    outweighing += eye.outweighed_by;
+    if (outweighing >= static_cast<int>(eyes_.size())) return false;
   }
-  return seeing >= fewest_;
+  return seeing >= std::max(fewest_, outweighing);
 }
 
 void RoomBlocks::FitGrid() {

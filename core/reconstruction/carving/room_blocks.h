@@ -49,6 +49,7 @@ class RoomBlocks {
     Cone picture;      // Contains all that the camera sees,
     Cone all_picture;  // contains only what it sees,
     Cone box;          // and contains the silhouette.
+    int outweighed_by;
   };
 
   static Plane PlaneOf(const RigidTransform& X_CW, const Vector3& normal_C);

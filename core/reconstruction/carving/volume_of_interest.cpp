@@ -1,5 +1,7 @@
 #include "core/reconstruction/carving/volume_of_interest.h"
 
+#include <algorithm>
+
 namespace mocap {
 namespace {
 
@@ -54,11 +56,10 @@ std::optional<Eigen::AlignedBox3d> VolumeOfInterest::Find(std::span<const Carvin
   for (const CarvingView& view : views) boxes_.push_back(view.Box());
   if (views.empty()) return std::nullopt;
   volume_.Reset(LookedAt(views));
-  int seeing = 0;
+  const auto seeing = std::ranges::count_if(boxes_, [](const auto& box) { return !!box; });
   for (std::size_t i = 0; i < views.size(); ++i) {
-    if (!boxes_[i]) continue;
-    ++seeing;
-    ClipToSilhouette(views[i], *boxes_[i], volume_);
+    const bool is_final = views[i].outweighed_by >= seeing;
+    if (boxes_[i] && is_final) ClipToSilhouette(views[i], *boxes_[i], volume_);
   }
   if (seeing < 2 || volume_.empty()) return std::nullopt;
   return volume_.Extent();

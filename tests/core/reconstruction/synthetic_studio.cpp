@@ -106,6 +106,12 @@ std::vector<CarvingView> SyntheticStudio::Views() const {
   return views;
 }
 
+void EraseLegs(Silhouette& silhouette) {
+  const PixelBox box = silhouette.BoundingBox().value();
+  for (int y = (box.top + box.bottom) / 2; y < silhouette.height(); ++y)
+    std::fill_n(silhouette.row(y), silhouette.words_per_row(), 0);
+}
+
 std::vector<DrawnCapsule> StandingPerson(double x, double y) {
   const auto at = [&](double dx, double dy, double z) { return Vector3(x + dx, y + dy, z); };
   return {{at(0, 0, 950), at(0, 0, 1350), 130},      {at(0, 0, 1640), at(0, 0, 1680), 95},

@@ -43,6 +43,9 @@ class SyntheticStudio {
   std::vector<std::optional<Vector2>> directions_;
 };
 
+/// Erases the lower half of what a silhouette shows, as of trousers in the wall's colour.
+void EraseLegs(Silhouette& silhouette);
+
 /// A person of about 1.75 m, standing at (x, y) with the arms out.
 std::vector<DrawnCapsule> StandingPerson(double x, double y);
 

@@ -102,6 +102,16 @@ TEST(HealthWatch, TellsHowMuchOfThePeopleACameraDoesNotKnow) {
     EXPECT_EQ(health[c].unknown_share.value(), 0) << c;
 }
 
+TEST(HealthWatch, TellsWhatCarvingFoundEachCameraToMiss) {
+  HealthWatch watch(WalkOfTenSeconds().cameras);
+  SeenSet set = SetAt(0);
+  set.miss_rates.assign(set.cameras.size(), {});
+  set.miss_rates[1] = 0.25;
+  watch.Add(set);
+  EXPECT_FALSE(watch.Health()[0].miss_rate);
+  EXPECT_EQ(watch.Health()[1].miss_rate, 0.25);
+}
+
 TEST(HealthWatch, NobodyIsNotUnknown) {
   HealthWatch watch(WalkOfTenSeconds().cameras);
   for (std::size_t moment = 0; moment < 2 * HealthWatch::kFewestMoments; ++moment) {

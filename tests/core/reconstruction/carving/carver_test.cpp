@@ -31,7 +31,7 @@ Voxels VoxelsOf(const VoxelGrid& grid) {
 
 // What the header says, word by word; `views` are those with something in their silhouettes.
 bool AgreesPlainly(const std::vector<CarvingView>& views, std::size_t all, const Vector3& p_W) {
-  std::size_t persons = 0, unknown = 0;
+  std::size_t persons = 0, unknown = 0, outweighing = 0;
   for (const CarvingView& view : views) {
     const Vector3 p_C = view.X_CW * p_W;
     if (p_C.z() <= 0) continue;
@@ -42,10 +42,10 @@ bool AgreesPlainly(const std::vector<CarvingView>& views, std::size_t all, const
     else if (view.unknown->Test(pixel.x, pixel.y))
       ++unknown;
     else
-      return false;
+      outweighing += static_cast<std::size_t>(view.outweighed_by);
   }
   const std::size_t seeing = persons + unknown;
-  return seeing >= 2 && 2 * seeing >= all && persons >= unknown;
+  return seeing >= 2 && 2 * seeing >= all && persons >= unknown + outweighing;
 }
 
 Voxels CarvePlainly(std::span<const CarvingView> views, double voxel_mm) {
@@ -300,6 +300,36 @@ TEST(Carver, WhatOnlyUnknownPixelsKeepOutIsDoubtful) {
   studio.unknown[0].Reset(320, 240);
   Carver({.voxel_mm = 50}).Carve(studio.Views(), grid, &doubtful);
   EXPECT_LT(doubtful.size(), 0.1 * static_cast<double>(all.size()));
+}
+
+TEST(Carver, GivesTheSameAsThePlainDefinitionWhereCamerasAreOutweighed) {
+  SyntheticStudio studio(16);
+  studio.Show(StandingPerson(-200, 150));
+  std::mt19937 random(3);
+  for (std::size_t c = 0; c < 16; ++c) DoubtPixels(20000, random, studio, c);
+  for (const std::size_t c : {2u, 3u, 9u}) EraseLegs(studio.silhouettes[c]);
+  std::vector<CarvingView> views = studio.Views();
+  const std::size_t cut = Carve(views, 40).size();
+  for (const int outweighed_by : {3, 4, 7, 13, 14}) {
+    SCOPED_TRACE(outweighed_by);
+    for (CarvingView& view : views) view.outweighed_by = outweighed_by;
+    views[3].outweighed_by = 3;
+    const Voxels voxels = Carve(views, 40);
+    EXPECT_TRUE(voxels == CarvePlainly(views, 40));
+    EXPECT_GE(voxels.size(), cut);
+  }
+}
+
+TEST(Carver, WhatOneCameraMissesStaysIfEnoughOthersShowIt) {
+  SyntheticStudio studio(8);
+  studio.Show(StandingPerson(0, 0));
+  const Voxels all = Carve(studio.Views(), 50);
+  EraseLegs(studio.silhouettes[2]);
+  std::vector<CarvingView> views = studio.Views();
+  views[2].outweighed_by = 7;
+  EXPECT_TRUE(std::ranges::includes(Carve(views, 50), all));
+  views[2].outweighed_by = 8;
+  EXPECT_LT(Carve(views, 50).size(), 0.8 * static_cast<double>(all.size()));
 }
 
 TEST(Carver, UnknownPixelsCarveHardSilhouettes) {
