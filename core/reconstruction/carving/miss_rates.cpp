@@ -18,10 +18,10 @@ constexpr int kOutweighing = 4;
 // that none misses, even if he is dressed like the wall.
 constexpr double kLeastHeld = 0.1;
 
-// Whether a view calls a point empty; nothing if it does not see it, or sees nobody at all.
+// Whether a view calls a point empty; nothing if it does not see it.
 std::optional<bool> Misses(const CarvingView& view, const Vector3& p_W) {
   const Vector3 p_C = view.X_CW * p_W;
-  if (p_C.z() <= 0 || !view.silhouette->BoundingBox()) return {};
+  if (p_C.z() <= 0) return {};
   const auto pixel = view.table->Lookup(p_C.x() / p_C.z(), p_C.y() / p_C.z());
   if (pixel.x < 0) return {};
   const bool has_unknown = view.unknown && view.unknown->width() > 0;
@@ -49,7 +49,11 @@ void MissRates::Weigh(std::span<CarvingView> views, std::uint64_t cameras,
 void MissRates::Look(std::span<const CarvingView> views, std::uint64_t cameras) {
   const int others = static_cast<int>(views.size()) - 1;
   views_.assign(views.begin(), views.end());
-  for (CarvingView& view : views_) view.outweighed_by = std::min(kOutweighing, others);
+  sees_people_.clear();
+  for (CarvingView& view : views_) {
+    view.outweighed_by = std::min(kOutweighing, others);
+    sees_people_.push_back(view.silhouette->BoundingBox().has_value());
+  }
   carver_.Carve(views_, hull_);
   pieces_.Find(hull_);
   counts_.assign(pieces_.sizes().size(), std::vector<Count>(views.size()));
@@ -82,6 +86,7 @@ void MissRates::CountCell(const VoxelPieces::Run& run, int i, std::span<const Ca
   const Vector3 p_W = hull_.CenterOf(i, run.j, run.k);
   bool is_missed = false;
   for (std::size_t v = 0; v < views.size(); ++v) {
+    if (!sees_people_[v]) continue;
     const std::optional<bool> misses = Misses(views[v], p_W);
     if (!misses) continue;
     ++counts_[piece][v].shown;

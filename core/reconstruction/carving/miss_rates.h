@@ -47,6 +47,7 @@ class MissRates {
   VoxelGrid hull_;
   VoxelPieces pieces_;
   std::vector<CarvingView> views_;
+  std::vector<bool> sees_people_;            // By view; who sees nobody carves nothing.
   std::vector<Count> pieces_missed_;         // By piece: cells that any view misses.
   std::vector<std::vector<Count>> counts_;   // By piece and view.
   std::vector<std::deque<double>> moments_;  // The latest shares of each camera.
