@@ -12,12 +12,19 @@ namespace {
 
 std::string CrfText(const std::optional<int>& crf) { return crf ? std::to_string(*crf) : "none"; }
 
+std::string ContrastText(const EvidenceKind& kind) {
+  std::string text = kind.contrast > 0 ? fmt::format("{:.0f}", kind.contrast) : "full";
+  if (kind.soft_shadows) text += ", soft shadows";
+  if (kind.misled_share > 0) text += fmt::format(", {:.0f} % misled", 100 * kind.misled_share);
+  return text;
+}
+
 std::string ErrorOrDash(double tracked_share, double error_mm) {
   return tracked_share > 0 ? fmt::format("{:.1f}", error_mm) : "–";
 }
 
-bool DifferInCamerasOnly(const EvidenceKind& a, const EvidenceKind& b) {
-  return a.contrast == b.contrast && a.crf == b.crf && a.cameras != b.cameras;
+bool DifferInCamerasOnly(EvidenceKind a, const EvidenceKind& b) {
+  return std::exchange(a.cameras, b.cameras) != b.cameras && a == b;
 }
 
 std::string RiseText(const std::optional<EvidenceRise>& rise) {
@@ -25,9 +32,9 @@ std::string RiseText(const std::optional<EvidenceRise>& rise) {
   const bool is_lost = rise->mm() == std::numeric_limits<double>::infinity();
   return fmt::format(
       "\nThe largest rise of the error by more cameras: {}, from {} to {} cameras at a contrast of "
-      "{:.0f} and crf {} (wanted: at most {:.0f} mm).\n",
+      "{} and crf {} (wanted: at most {:.0f} mm).\n",
       is_lost ? "nobody is tracked any more" : fmt::format("{:+.1f} mm", rise->mm()),
-      rise->fewer.cameras, rise->more.cameras, rise->fewer.contrast, CrfText(rise->fewer.crf),
+      rise->fewer.cameras, rise->more.cameras, ContrastText(rise->fewer), CrfText(rise->fewer.crf),
       kMostRise_mm);
 }
 
@@ -102,17 +109,18 @@ std::optional<EvidenceRise> LargestRise(std::span<const EvidenceSummary> kinds) 
 }
 
 std::string EvidenceHeader() {
-  return fmt::format("{:>8}{:>6}{:>9}  {:<8}{:>8}{:>6}{:>9}{:>11}{:>8}{:>11}\n", "contrast", "crf",
+  return fmt::format("{:<20}{:>6}{:>9}  {:<8}{:>8}{:>6}{:>9}{:>11}{:>8}{:>11}\n", "contrast", "crf",
                      "cameras", "motion", "stature", "seed", "mean mm", "tracked %", "hull %",
                      "unknown %");
 }
 
 std::string EvidenceLine(const EvidenceRow& row) {
-  return fmt::format(
-      "{:>8.0f}{:>6}{:>9}  {:<8}{:>8.0f}{:>6}{:>9}{:>11.1f}{:>8.0f}{:>11.0f}\n", row.kind.contrast,
-      CrfText(row.kind.crf), row.kind.cameras, row.accuracy.motion, row.accuracy.stature_mm,
-      row.accuracy.seed, ErrorOrDash(row.accuracy.tracked_share, row.accuracy.mpjpe_mm),
-      100 * row.accuracy.tracked_share, 100 * row.hull_share, 100 * row.unknown_share);
+  return fmt::format("{:<20}{:>6}{:>9}  {:<8}{:>8.0f}{:>6}{:>9}{:>11.1f}{:>8.0f}{:>11.0f}\n",
+                     ContrastText(row.kind), CrfText(row.kind.crf), row.kind.cameras,
+                     row.accuracy.motion, row.accuracy.stature_mm, row.accuracy.seed,
+                     ErrorOrDash(row.accuracy.tracked_share, row.accuracy.mpjpe_mm),
+                     100 * row.accuracy.tracked_share, 100 * row.hull_share,
+                     100 * row.unknown_share);
 }
 
 std::string EvidenceTable(std::span<const EvidenceRow> rows) {
@@ -126,7 +134,7 @@ std::string EvidenceTable(std::span<const EvidenceRow> rows) {
   const EvidenceKind* last = nullptr;
   for (const EvidenceSummary& kind : kinds) {
     if (!last || !DifferInCamerasOnly(*last, kind.kind))
-      text += fmt::format("\n| {:.0f} | {} |", kind.kind.contrast, CrfText(kind.kind.crf));
+      text += fmt::format("\n| {} | {} |", ContrastText(kind.kind), CrfText(kind.kind.crf));
     last = &kind.kind;
     text += fmt::format(" {} | {:.0f} | {:.0f} | {:.0f} |",
                         ErrorOrDash(kind.accuracy.tracked_share, kind.accuracy.mpjpe_mm),
@@ -140,7 +148,9 @@ std::string EvidenceMarkdown(std::span<const EvidenceRow> rows, double seconds) 
   if (rows.empty()) return {};
   return fmt::format(
              "\n## Weak evidence\nClothes differ from what is behind them by at most the contrast "
-             "[of 256 grey values]. Pictures are coded by x264 at the crf. {} takes of {:.0f} s. "
+             "[of 256 grey values]. Pictures are coded by x264 at the crf. Misled cameras do not "
+             "see "
+             "the shirt or the trousers. {} takes of {:.0f} s. "
              "*Hull*\nis the volume that is carved, as a share of the hull of the true masks of "
              "the same cameras. *Unknown* is the share of unknown pixels where cameras show the "
              "person.\n\n![Mean error by number of cameras](evidence.svg)\n",

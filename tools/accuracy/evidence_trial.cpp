@@ -126,6 +126,10 @@ std::vector<EvidenceKind> PlannedEvidence() {
         kinds.push_back({.contrast = contrast, .crf = crf, .cameras = cameras});
     }
   }
+  for (const int cameras : kEvidenceCameras)
+    kinds.push_back({.cameras = cameras, .soft_shadows = true});
+  for (const int cameras : kEvidenceCameras)
+    kinds.push_back({.cameras = cameras, .misled_share = kEvidenceMisled});
   return kinds;
 }
 
@@ -133,6 +137,8 @@ void ApplyEvidence(const EvidenceKind& kind, SimulatedStudioOptions& studio) {
   studio.contrast = kind.contrast;
   studio.crf = kind.crf;
   studio.cameras = kind.cameras;
+  studio.misled_share = kind.misled_share;
+  studio.soft_shadows = kind.soft_shadows;
 }
 
 EvidenceRow RunEvidenceTrial(const SimulatedStudioOptions& options) {
@@ -151,7 +157,8 @@ EvidenceRow RunEvidenceTrial(const SimulatedStudioOptions& options) {
   VolumeKeeper volumes;
   const TrialOutcome outcome = TrackStudio(trial, std::move(studio), volumes);
   const std::int64_t true_voxels = TrueVoxels(cameras, sights, volumes.frames, trial.voxel_mm);
-  return {.kind = {options.contrast, options.crf, options.cameras},
+  return {.kind = {options.contrast, options.crf, options.cameras, options.misled_share,
+                   options.soft_shadows},
           .accuracy = RowOf(trial, outcome),
           .hull_share = static_cast<double>(volumes.voxels) /
                         static_cast<double>(std::max<std::int64_t>(1, true_voxels)),

@@ -14,15 +14,20 @@ namespace mocap {
 struct EvidenceKind {
   double contrast = 0;          ///< As in SimulatedStudioOptions,
   std::optional<int> crf = {};  ///< this,
-  int cameras = 0;              ///< and this.
+  int cameras = 0;              ///< this,
+  double misled_share = 0;      ///< this,
+  bool soft_shadows = false;    ///< and this.
   friend bool operator==(const EvidenceKind&, const EvidenceKind&) = default;
 };
 
 inline constexpr std::array<double, 4> kEvidenceContrasts = {40, 20, 15, 10};
 inline constexpr std::array<std::optional<int>, 3> kEvidenceCrfs = {std::nullopt, 18, 28};
 inline constexpr std::array<int, 3> kEvidenceCameras = {4, 8, 16};
+/// One of four cameras and of eight, and two of sixteen.
+inline constexpr double kEvidenceMisled = 0.1;
 
-/// Lists all combinations: cameras change first, then crf.
+/// Lists all combinations: cameras change first, then crf. Then clothes of full contrast with soft
+/// shadows, and with misled cameras, in pictures without loss.
 std::vector<EvidenceKind> PlannedEvidence();
 
 /// Makes a studio one of this kind.

@@ -36,7 +36,7 @@ SimulatedStudioOptions FewFrames() {
 
 TEST(EvidencePlan, HasEveryContrastWithEveryCrfAndNumberOfCameras) {
   const std::vector<EvidenceKind> kinds = PlannedEvidence();
-  EXPECT_EQ(kinds.size(), 36u);
+  EXPECT_EQ(kinds.size(), 36u + 3 + 3);
   for (const double contrast : {40, 20, 15, 10}) {
     for (const std::optional<int> crf : {std::optional<int>(), {18}, {28}}) {
       for (const int cameras : {4, 8, 16})
@@ -71,6 +71,19 @@ TEST(EvidenceTrial, TheSameOptionsGiveTheSameRow) {
   EXPECT_EQ(first.hull_share, again.hull_share);
   EXPECT_EQ(first.unknown_share, again.unknown_share);
   EXPECT_EQ(first.accuracy.mpjpe_mm, again.accuracy.mpjpe_mm);
+}
+
+TEST(EvidenceReport, SoftShadowsAndMisledCamerasHaveLinesOfTheirOwn) {
+  EvidenceKind shadows{.cameras = 4, .soft_shadows = true};
+  EvidenceKind misled{.cameras = 4, .misled_share = 0.1};
+  std::vector<EvidenceRow> rows = {WeakRow(shadows, 20), WeakRow(misled, 30)};
+  EXPECT_FALSE(LargestRise(SummarizeEvidence(rows)));
+  misled.cameras = 8;
+  rows.push_back(WeakRow(misled, 40));
+  EXPECT_THAT(EvidenceTable(rows), HasSubstr("\n| full, soft shadows | none | 20.0 |"));
+  EXPECT_THAT(EvidenceTable(rows), HasSubstr("\n| full, 10 % misled | none | 30.0 |"));
+  EXPECT_THAT(EvidenceTable(rows),
+              HasSubstr("+10.0 mm, from 4 to 8 cameras at a contrast of full"));
 }
 
 TEST(EvidenceReport, FindsTheLargestRiseByMoreCameras) {
