@@ -49,6 +49,7 @@ struct TrackOptions {
   std::vector<std::string> cameras;
   std::optional<std::filesystem::path> masks;  ///< Empty: the take's own.
   std::optional<int> people;                   ///< Without: one, whose result is the take's.
+  std::int64_t first = 0;
   bool measure = false;
   bool json = false;
 };
@@ -147,6 +148,15 @@ void Write(const TrackOptions& options, const ResultSink& sink) {
                           ListedNames(removed)});
 }
 
+SetupError NothingToTrack(const TrackOptions& options, const PipelineStatus& status) {
+  const std::int64_t sets = status.sets_complete + status.sets_partial;
+  if (sets == 0)
+    return SetupError(options.take.string() + ": no frames of two cameras match in time");
+  return SetupError(options.take.string() + ": has " + Counted(sets, "frame set") +
+                    ", and --first is " + std::to_string(options.first) + "; expected at most " +
+                    std::to_string(sets - 1));
+}
+
 void Track(const TrackOptions& options) {
   StopOnSignals();
   const NamedTracker& tracker = TrackerOf(options.tracker);
@@ -167,6 +177,7 @@ void Track(const TrackOptions& options) {
                      .latency_origin = LatencyOrigin::kArrival,
                      .tracker = tracker.kind,
                      .people = options.people.value_or(1),
+                     .first_set = options.first,
                      .elsewhere = masked},
                     LoadBodyTable(options.body.empty() ? tracker.body : options.body), sink);
   const std::filesystem::path subject = TakeLayout{options.take}.Subject();
@@ -178,9 +189,7 @@ void Track(const TrackOptions& options) {
   pipeline.Join();
   const double seconds = static_cast<double>(SteadyNs() - begin_ns) / 1e9;
   sink.EndProgress();
-  if (sink.frames() == 0) {
-    throw SetupError(options.take.string() + ": no frames of two cameras match in time");
-  }
+  if (sink.frames() == 0) throw NothingToTrack(options, pipeline.Status());
   TellFault(options, cameras, pipeline.Moments(), sink.tracked_frames());
   Write(options, sink);
   if (new_folder) new_folder->Finish();
@@ -220,6 +229,11 @@ void AddTrackCommand(CLI::App& app) {
                    "track up to this many people; one result folder each, person-1 and so on "
                    "(default: one person)")
       ->check(NumberFrom(1, kMostPeople));
+  command
+      ->add_option("--first", options->first,
+                   "number of the first frame set to track; earlier ones are left out")
+      ->check(NumberFrom(0, 1e9))
+      ->capture_default_str();
   command
       ->add_option_function<std::string>(
           "--masks", [options](const std::string& folder) { options->masks = folder; },

@@ -33,6 +33,7 @@ struct PipelineOptions {
   LatencyOrigin latency_origin = LatencyOrigin::kCapture;
   TrackerKind tracker = TrackerKind::kSurface;
   int people = 1;                 ///< Maximum number that is tracked.
+  std::int64_t first_set = 0;     ///< Tracking begins with this set; earlier ones are left out.
   int priority = 0;               ///< Of the threads, SCHED_FIFO; 0: normal scheduling.
   std::vector<int> processors{};  ///< For the threads; empty: all.
   /// Recipients of frames, each with one tap per camera that has a driver; these cameras come

@@ -169,7 +169,7 @@ void Pipeline::RunTracking() {
     const int seen = track_bell_.count();
     const bool is_closed = sets_.closed();
     if (sets_.TryPop()) {
-      track_.Process(sets_.front());
+      Track(sets_.front());
       grids_.Give(sets_.front().grid);
       carve_bell_.Ring();
     } else if (is_closed) {
@@ -178,6 +178,11 @@ void Pipeline::RunTracking() {
       track_bell_.WaitPast(seen);
     }
   }
+}
+
+// Everything before tracking is as without sets left out: what cameras show stays the same.
+void Pipeline::Track(const CarvedSet& set) {
+  if (set.frame >= options_.first_set) track_.Process(set);
 }
 
 bool Pipeline::FeedSerially() {
@@ -199,7 +204,7 @@ void Pipeline::RunSerially() {
   for (int i = 0; i < lines_->count(); ++i) (*lines_)[i].source->Start();
   for (bool all_ended = false; !all_ended;) {
     all_ended = FeedSerially();
-    while (carve_->Next(sets_.back()) == Synchronizer::Verdict::kSet) track_.Process(sets_.back());
+    while (carve_->Next(sets_.back()) == Synchronizer::Verdict::kSet) Track(sets_.back());
   }
   for (int i = 0; i < lines_->count(); ++i) (*lines_)[i].source->Stop();
   finished_.store(true, std::memory_order_release);

@@ -72,6 +72,7 @@ class Pipeline : public FramePath {
   void RunCarving();
   void HoldTaps();
   void RunTracking();
+  void Track(const CarvedSet& set);
   bool FeedFromQueues();
   bool FeedSerially();
 

@@ -17,6 +17,7 @@
 #include "tests/support/setup_error.h"
 #include "tests/support/temporary_folder.h"
 #include "tools/calibrate.h"
+#include "tools/results/result.h"
 #include "tools/simulate.h"
 
 namespace mocap {
@@ -260,6 +261,34 @@ TEST_F(WalkTracked, RefiningCamerasThatHaveNotMovedSaysSoOnce) {
 TEST_F(WalkTracked, CamerasThatGoByEachOthersNameAreTold) {
   Calibrate(Exchanged());
   EXPECT_THAT(Track(), HasSubstr("cam1 and cam3 have each other's name"));
+}
+
+TEST_F(WalkTracked, SetsBeforeTheFirstAreLeftOutAndNumbersStay) {
+  Track();
+  const std::vector<PoseRow> all = ReadResult(Result()).poses;
+  const fs::path later = folder_->path() / "later";
+  const std::string track =
+      "track --voxel-size 40 --first 5 " + Take().string() + " --out " + later.string();
+  for (const std::string& options : std::vector<std::string>{"", " --people 2", " --masks"}) {
+    EXPECT_THAT(Said(AddTrackCommand, track + options), HasSubstr("11 frame sets, ")) << options;
+    const fs::path folder = options == " --people 2" ? later / "person-1" : later;
+    const std::vector<PoseRow> poses = ReadResult(folder).poses;
+    // The rows of somebody among several begin when that person is found.
+    ASSERT_FALSE(poses.empty());
+    EXPECT_GE(poses.front().frame, 5) << options;
+    EXPECT_EQ(poses.back().frame, all.back().frame) << options;
+    EXPECT_EQ(poses.back().timestamp_ns, all.back().timestamp_ns) << options;
+  }
+}
+
+TEST_F(WalkTracked, AFirstSetThatTheTakeDoesNotHaveIsRefused) {
+  EXPECT_THAT(testing::SetupErrorOf([] {
+                testing::RunCommand(AddTrackCommand, "track --first 16 --out " +
+                                                         (folder_->path() / "none").string() + " " +
+                                                         Take().string());
+              }),
+              HasSubstr("has 16 frame sets, and --first is 16; expected at most 15"));
+  EXPECT_FALSE(fs::exists(folder_->path() / "none"));
 }
 
 TEST_F(WalkTracked, OneCameraIsRefusedWithAReason) {

@@ -87,6 +87,23 @@ TEST(Pipeline, ThreadedEqualsSerialBitForBit) {
   EXPECT_TRUE(threaded.seen == serial.seen);
 }
 
+TEST(Pipeline, SetsBeforeTheFirstAreLeftOutAndTheOthersKeepTheirEvidence) {
+  RecordingSink all, later, serial;
+  Pipeline(SmallSimulation(), Waiting(), LoadBodyTable("full"), all).RunSerially();
+  PipelineOptions options = Waiting();
+  options.first_set = 7;
+  Pipeline pipeline(SmallSimulation(), options, LoadBodyTable("full"), later);
+  RunToEnd(pipeline);
+  ASSERT_EQ(later.seen.size(), all.seen.size() - 7);
+  for (std::size_t i = 0; i < later.seen.size(); ++i) {
+    EXPECT_EQ(later.seen[i].frame, all.seen[i + 7].frame);
+    EXPECT_EQ(later.seen[i].capture_ns, all.seen[i + 7].capture_ns);
+    EXPECT_EQ(later.seen[i].voxels, all.seen[i + 7].voxels);
+  }
+  Pipeline(SmallSimulation(), options, LoadBodyTable("full"), serial).RunSerially();
+  EXPECT_TRUE(serial.seen == later.seen);
+}
+
 TEST(Pipeline, SixtyFourCamerasCarveTogether) {
   RecordingSink sink;
   Pipeline pipeline(SmallSimulation(64, 0.1), Waiting(), LoadBodyTable("full"), sink);
