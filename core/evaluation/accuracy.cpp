@@ -56,16 +56,6 @@ double Percentile(const std::vector<double>& sorted, double share) {
   return sorted[std::min(sorted.size() - 1, place)];
 }
 
-DistanceSummary Summarize(std::vector<double> values) {
-  std::ranges::sort(values);
-  DistanceSummary summary;
-  for (const double value : values) summary.mean += value / static_cast<double>(values.size());
-  summary.median = Percentile(values, 0.5);
-  summary.p95 = Percentile(values, 0.95);
-  summary.worst = values.back();
-  return summary;
-}
-
 std::size_t NearestInTime(std::span<const ScoredFrame> truth, std::int64_t time_ns) {
   const auto nearest = std::ranges::min_element(
       truth, {}, [&](const ScoredFrame& frame) { return std::abs(frame.timestamp_ns - time_ns); });
@@ -136,6 +126,17 @@ ScoredAngles ScoredAnglesOf(const ScoredPoints& p) {
   return angles;
 }
 
+DistanceSummary SummarizeDistances(std::vector<double> distances_mm) {
+  std::ranges::sort(distances_mm);
+  DistanceSummary summary;
+  for (const double distance_mm : distances_mm)
+    summary.mean += distance_mm / static_cast<double>(distances_mm.size());
+  summary.median = Percentile(distances_mm, 0.5);
+  summary.p95 = Percentile(distances_mm, 0.95);
+  summary.worst = distances_mm.back();
+  return summary;
+}
+
 Accuracy MeasureAccuracy(std::span<const ScoredFrame> truth, std::span<const ScoredFrame> output) {
   MOCAP_CHECK(!truth.empty());
   Accuracy result;
@@ -161,7 +162,7 @@ Accuracy MeasureAccuracy(std::span<const ScoredFrame> truth, std::span<const Sco
   result.first_tracked_frame = result.frames.front().truth;
   result.tracked_share = tracked / (result.truth_frames - result.first_tracked_frame);
   result.head_found_share = heads_found / tracked;
-  result.distance_mm = Summarize(std::move(distances));
+  result.distance_mm = SummarizeDistances(std::move(distances));
   result.spread_mm = Spread(result.frames, truth, output);
   result.point_mm /= tracked;
   result.angle_rad /= tracked;

@@ -58,6 +58,9 @@ struct DistanceSummary {
   double mean = 0, median = 0, p95 = 0, worst = 0;
 };
 
+/// Summarizes distances; the order does not matter. @pre  there are some.
+DistanceSummary SummarizeDistances(std::vector<double> distances_mm);
+
 /// Results over all tracked frames that the truth covers.
 struct Accuracy {
   int truth_frames = 0;
