@@ -3,228 +3,80 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cstdio>
 #include <filesystem>
 #include <memory>
 #include <span>
 #include <string>
 #include <string_view>
-#include <utility>
 #include <vector>
 
-#include "config/load_config.h"
+#include "core/errors.h"
 #include "daemon/base/choice_option.h"
 #include "daemon/base/number_option.h"
-#include "drivers/simulation/company.h"
 #include "drivers/take/text_file.h"
-#include "tools/accuracy/accuracy_benchmark.h"
 #include "tools/accuracy/accuracy_report.h"
+#include "tools/accuracy/benchmark_options.h"
+#include "tools/accuracy/benchmark_parts.h"
 #include "tools/accuracy/carving_trial.h"
 #include "tools/accuracy/evidence_report.h"
+#include "tools/accuracy/paired_comparison.h"
 #include "tools/accuracy/paper_report.h"
-#include "tools/accuracy/sweep_plan.h"
-#include "tools/accuracy/variety_trial.h"
+#include "tools/accuracy/score_table.h"
 
 namespace mocap {
 namespace {
 
-// Defaults of a part.
-constexpr double kSeconds = 10, kPeopleSeconds = 20, kStudioSeconds = 2, kPaperSeconds = 4,
-                 kEvidenceSeconds = 2;
-constexpr int kSeeds = 3, kPeopleSeeds = 2, kStudioSeeds = 2, kVariedPeople = 200,
-              kEvidenceSeeds = 1;
-const std::vector<std::string> kMotions = {"walk", "run", "jump",  "dance",  "sit",
-                                           "step", "lie", "stand", "gesture"};
-const std::vector<std::string> kPeopleMotions = {"walk", "meet", "dance", "visit"};
-const std::vector<std::string> kSweepMotions = {"walk", "dance", "sit"};
-const std::vector<std::string> kPaperMotions = {"walk", "run", "dance", "sit", "step", "jump"};
-const std::vector<std::string> kEvidenceMotions = {"walk"};
-const std::vector<double> kStatures_mm = {1150, 1550, 1950}, kPaperStatures_mm = {1300, 1750, 1880},
-                          kEvidenceStatures_mm = {1750};
-
-struct BenchmarkOptions {
-  std::filesystem::path out;
-  double seconds = 0;  ///< 0: the part's default above; also if others are empty or 0.
-  std::vector<std::string> motions;
-  std::vector<double> statures_mm;
-  int seeds = 0;
-  std::vector<std::string> parts = {"grid",        "cameras", "voxels", "covered",
-                                    "calibration", "mishap",  "tracker"};
-
-  std::vector<std::string> MotionsOr(const std::vector<std::string>& usual) const {
-    return motions.empty() ? usual : motions;
-  }
-  std::vector<double> StaturesOr(const std::vector<double>& usual) const {
-    return statures_mm.empty() ? usual : statures_mm;
-  }
-  double SecondsOr(double usual) const { return seconds > 0 ? seconds : usual; }
-  int SeedsOr(int usual) const { return seeds > 0 ? seeds : usual; }
-};
-
-// Each takes as long as all others together or longer, so they run only on request.
-const std::string kPeoplePart = "people", kVarietyPart = "variety", kStudioPart = "studio",
-                  kPaperPart = "paper", kEvidencePart = "evidence";
-
-bool Wants(const BenchmarkOptions& options, const std::string& part) {
-  return std::ranges::find(options.parts, part) != options.parts.end();
-}
-
-void PrintNow(const std::string& text) {
-  std::fputs(text.c_str(), stdout);
-  std::fflush(stdout);
-}
-
-AccuracyRow MeasureAndPrint(const AccuracyTrial& trial) {
-  const AccuracyRow row = Measure(trial);
-  PrintNow(AccuracyLine(row));
-  return row;
-}
-
-/// Every motion of every stature with every seed.
-struct TakeGrid {
-  std::vector<std::string> motions;
-  std::vector<double> statures_mm;
-  int seeds = 0;
-  double seconds = 0;  ///< Length of a take.
-};
-
-/// The studio of each take; what the grid does not say is as usual.
-std::vector<SimulatedStudioOptions> StudiosOf(const TakeGrid& grid,
-                                              const SimulatedStudioOptions& usual) {
-  std::vector<SimulatedStudioOptions> studios;
-  for (const std::string& motion : grid.motions) {
-    for (const double stature_mm : grid.statures_mm) {
-      for (int seed = 1; seed <= grid.seeds; ++seed) {
-        SimulatedStudioOptions& studio = studios.emplace_back(usual);
-        studio.motion = motion;
-        studio.stature_mm = stature_mm;
-        studio.seed = static_cast<std::uint64_t>(seed);
-        studio.seconds = grid.seconds;
-      }
-    }
-  }
-  return studios;
-}
-
-std::vector<AccuracyRow> RunGrid(const TakeGrid& grid, const AccuracyTrial& usual) {
-  std::vector<AccuracyRow> rows;
-  for (const SimulatedStudioOptions& studio : StudiosOf(grid, usual.studio)) {
-    AccuracyTrial trial = usual;
-    trial.studio = studio;
-    rows.push_back(MeasureAndPrint(trial));
-  }
-  return rows;
-}
-
-std::vector<PaperRow> RunPaper(const BenchmarkOptions& options) {
-  const TakeGrid grid{.motions = options.MotionsOr(kPaperMotions),
-                      .statures_mm = options.StaturesOr(kPaperStatures_mm),
-                      .seeds = options.SeedsOr(kSeeds),
-                      .seconds = options.SecondsOr(kPaperSeconds)};
-  std::vector<PaperRow> rows;
-  PrintNow(PaperHeader());
-  for (const SimulatedStudioOptions& studio : StudiosOf(grid, RecordedSimulation())) {
-    rows.push_back(RunPaperTrial(studio));
-    PrintNow(PaperLine(rows.back()));
-  }
-  return rows;
-}
-
-std::vector<EvidenceRow> RunEvidence(const BenchmarkOptions& options) {
-  const TakeGrid grid{.motions = options.MotionsOr(kEvidenceMotions),
-                      .statures_mm = options.StaturesOr(kEvidenceStatures_mm),
-                      .seeds = options.SeedsOr(kEvidenceSeeds),
-                      .seconds = options.SecondsOr(kEvidenceSeconds)};
-  std::vector<EvidenceRow> rows;
-  PrintNow(EvidenceHeader());
-  for (const EvidenceKind& kind : PlannedEvidence()) {
-    for (SimulatedStudioOptions studio : StudiosOf(grid, RecordedSimulation())) {
-      ApplyEvidence(kind, studio);
-      rows.push_back(RunEvidenceTrial(studio));
-      PrintNow(EvidenceLine(rows.back()));
-    }
-  }
-  return rows;
-}
-
-std::vector<PeopleRow> RunPeople(const BenchmarkOptions& options) {
-  std::vector<PeopleRow> rows;
-  PrintNow(PeopleHeader());
-  for (const std::string& motion : options.MotionsOr(kPeopleMotions)) {
-    for (int people = 2; people <= simulation::kMostSimulatedPeople; ++people) {
-      for (int seed = 1; seed <= options.SeedsOr(kPeopleSeeds); ++seed) {
-        SimulatedStudioOptions studio = RecordedSimulation();
-        studio.motion = motion;
-        studio.people = people;
-        studio.seed = static_cast<std::uint64_t>(seed);
-        studio.seconds = options.SecondsOr(kPeopleSeconds);
-        rows.push_back(RunPeopleTrial(studio));
-        PrintNow(PeopleLine(rows.back()));
-      }
-    }
-  }
-  return rows;
-}
-
-std::vector<VarietyGrid> RunVariety(const BenchmarkOptions& options) {
-  std::vector<VarietyGrid> grids;
-  for (const Filming& filming : Filmings()) {
-    PrintNow(fmt::format("\nvaried people, {}\n{}", filming.label, VarietyHeader()));
-    VarietyGrid& grid = grids.emplace_back(VarietyGrid{filming, {}});
-    for (int number = 1; number <= options.SeedsOr(kVariedPeople); ++number) {
-      grid.rows.push_back(RunVarietyTrial(number, options.SecondsOr(kSeconds), filming));
-      PrintNow(VarietyLine(grid.rows.back()));
-    }
-    PrintNow(VarietySummaryText(grid.rows));
-  }
-  return grids;
-}
+constexpr int kMostVaried = 1'000'000, kMostFirsts = 10;
 
 bool HasTakesOfTheGrid(const BenchmarkOptions& options) {
-  return std::ranges::any_of(options.parts, [](const std::string& part) {
-    return part != kPeoplePart && part != kVarietyPart && part != kPaperPart &&
-           part != kEvidencePart;
+  const std::array others = {kPeoplePart, kVarietyPart, kPaperPart, kEvidencePart, kTakesPart};
+  return std::ranges::any_of(options.parts, [&](const std::string& part) {
+    return std::ranges::find(others, part) == others.end();
   });
 }
 
-AccuracySweep RunSweep(const SweepPlan& plan, const TakeGrid& grid) {
-  AccuracySweep sweep{plan.what, {}};
-  for (const SweepStep& step : plan.steps) {
-    PrintNow(fmt::format("\n{}: {}\n", plan.what, step.label));
-    AccuracyTrial trial;
-    step.change(trial);
-    sweep.steps.push_back({step.label, Summarize(RunGrid(grid, trial))});
-  }
-  return sweep;
+/// Checked before the work, so that a result cannot be lost.
+void RequireRoomForTables(const std::filesystem::path& out) {
+  MakeFolder(out);
+  const auto require = [&out](const char* name, std::string_view beginning) {
+    RequireWritable(out / name);
+    RequireOwn(out / name, std::span(&beginning, 1), "a benchmark");
+  };
+  require("accuracy.md", "# Accuracy on simulated people");
+  require("scores.csv", kScoreHeader);
 }
 
-std::vector<AccuracySweep> RunSweeps(const BenchmarkOptions& options) {
-  const TakeGrid grid{.motions = kSweepMotions,
-                      .statures_mm = {SimulatedStudioOptions().stature_mm},
-                      .seeds = 1,
-                      .seconds = options.SecondsOr(kSeconds)};
-  std::vector<AccuracySweep> sweeps;
-  for (const SweepPlan& plan : PlannedSweeps()) {
-    if (Wants(options, plan.part)) sweeps.push_back(RunSweep(plan, grid));
-  }
-  return sweeps;
+/// The folders of takes; none if that part is not wanted.
+std::vector<TakesFolder> WantedTakes(const BenchmarkOptions& options) {
+  if (options.Wants(kTakesPart) != !options.folders.empty())
+    throw SetupError(options.folders.empty()
+                         ? "--parts takes: needs --takes; expected a folder of recorded takes"
+                         : "--takes: is of the part takes; expected --parts takes beside it");
+  return FoldersOfTakes(options.folders);
 }
 
-AccuracySweep RunStudios(const BenchmarkOptions& options) {
-  return RunSweep(PlannedStudios(), {.motions = options.MotionsOr(kSweepMotions),
-                                     .statures_mm = options.StaturesOr(kStatures_mm),
-                                     .seeds = options.SeedsOr(kStudioSeeds),
-                                     .seconds = options.SecondsOr(kStudioSeconds)});
+/// What can be compared with another version, person by person.
+std::vector<ScoreRow> ScoresOf(const std::vector<VarietyGrid>& variety,
+                               const std::vector<ScoredTakes>& takes) {
+  std::vector<ScoreRow> scores;
+  const auto add = [&scores](const std::vector<ScoreRow>& rows) {
+    scores.insert(scores.end(), rows.begin(), rows.end());
+  };
+  for (const VarietyGrid& grid : variety)
+    for (const VarietyRow& row : grid.rows)
+      add(RowsOf(kVarietyPart, grid.filming.label, std::to_string(row.accuracy.seed), row.score));
+  for (const ScoredTakes& folder : takes)
+    for (const ScoredTake& take : folder.takes)
+      for (const TakePerson& person : take.people)
+        add(RowsOf(kTakesPart, folder.folder, person.name, person.score));
+  return scores;
 }
 
 void RunBenchmark(const BenchmarkOptions& options) {
-  // Checked before the work, so that a result cannot be lost.
-  if (!options.out.empty()) {
-    MakeFolder(options.out);
-    RequireWritable(options.out / "accuracy.md");
-    constexpr std::string_view kBeginning = "# Accuracy on simulated people";
-    RequireOwn(options.out / "accuracy.md", std::span(&kBeginning, 1), "a benchmark");
-  }
+  const std::vector<TakesFolder> folders = WantedTakes(options);
+  if (!options.out.empty()) RequireRoomForTables(options.out);
   AccuracyBenchmark benchmark{.seconds = options.SecondsOr(kSeconds),
                               .grid = {},
                               .sweeps = {},
@@ -233,44 +85,108 @@ void RunBenchmark(const BenchmarkOptions& options) {
                               .studio_seconds = options.SecondsOr(kStudioSeconds),
                               .people = {}};
   if (HasTakesOfTheGrid(options)) PrintNow(AccuracyHeader());
-  if (Wants(options, "grid")) {
-    benchmark.grid = RunGrid({.motions = options.MotionsOr(kMotions),
-                              .statures_mm = options.StaturesOr(kStatures_mm),
-                              .seeds = options.SeedsOr(kSeeds),
-                              .seconds = options.SecondsOr(kSeconds)},
-                             {});
+  if (options.Wants("grid")) {
+    benchmark.grid = RunGrid(options);
     PrintNow("\n" + AccuracySummaryText(Summarize(benchmark.grid)));
   }
   benchmark.sweeps = RunSweeps(options);
-  if (Wants(options, kStudioPart)) {
+  if (options.Wants(kStudioPart)) {
     benchmark.studios = RunStudios(options);
     PrintNow(SweepTable(benchmark.studios));
   }
-  if (Wants(options, kPeoplePart)) {
+  if (options.Wants(kPeoplePart)) {
     benchmark.people = RunPeople(options);
     PrintNow("\n" + PeopleSummaryText(benchmark.people));
   }
   std::vector<VarietyGrid> variety;
-  if (Wants(options, kVarietyPart)) variety = RunVariety(options);
+  if (options.Wants(kVarietyPart)) variety = RunVariety(options);
+  const std::vector<ScoredTakes> takes = RunTakes(options, folders);
   std::vector<PaperRow> paper;
-  if (Wants(options, kPaperPart)) {
+  if (options.Wants(kPaperPart)) {
     paper = RunPaper(options);
     PrintNow(PaperTables(paper));
   }
   std::vector<EvidenceRow> evidence;
-  if (Wants(options, kEvidencePart)) {
+  if (options.Wants(kEvidencePart)) {
     evidence = RunEvidence(options);
     PrintNow(EvidenceTable(evidence) + CarvingLines());
   }
   if (options.out.empty()) return;
   ReplaceText(options.out / "accuracy.md",
               AccuracyMarkdown(benchmark) + VarietyMarkdown(variety) +
+                  TakesMarkdown(takes, options.FirstsOr(kTakeFirsts)) +
                   PaperMarkdown(paper, options.SecondsOr(kPaperSeconds)) +
                   EvidenceMarkdown(evidence, options.SecondsOr(kEvidenceSeconds)));
+  const std::vector<ScoreRow> scores = ScoresOf(variety, takes);
+  if (!scores.empty()) ReplaceText(options.out / "scores.csv", ScoreCsv(scores));
   if (!benchmark.sweeps.empty()) {
     ReplaceText(options.out / "accuracy.svg", AccuracySweepsSvg(benchmark.sweeps));
   }
   if (!evidence.empty()) ReplaceText(options.out / "evidence.svg", EvidenceSvg(evidence));
+}
+
+void AddTakeOptions(CLI::App& command, BenchmarkOptions& options) {
+  command
+      .add_option(
+          "--seconds", options.seconds,
+          fmt::format("length of each take [s] (default: {}; several people: {}; studio: {}; "
+                      "paper: {}; evidence: {})",
+                      kSeconds, kPeopleSeconds, kStudioSeconds, kPaperSeconds, kEvidenceSeconds))
+      ->check(NumberFrom(1, 600));
+  command
+      .add_option(
+          "--motions", options.motions,
+          fmt::format(
+              "motions of the people (default: {}; several people: {}; paper: {}; evidence: {})",
+              fmt::join(kMotions, ","), fmt::join(kPeopleMotions, ","),
+              fmt::join(kPaperMotions, ","), fmt::join(kEvidenceMotions, ",")))
+      ->delimiter(',');
+  command
+      .add_option("--statures", options.statures_mm,
+                  fmt::format("statures of the people [mm] (default: {}; paper: {}; evidence: {})",
+                              fmt::join(kStatures_mm, ","), fmt::join(kPaperStatures_mm, ","),
+                              fmt::join(kEvidenceStatures_mm, ",")))
+      ->delimiter(',')
+      ->check(NumberFrom(1000, 2100));
+  command
+      .add_option(
+          "--seeds", options.seeds,
+          fmt::format("number of random seeds per combination (default: {}; several people: {}; "
+                      "studio: {}; variety: {} people; evidence: {})",
+                      kSeeds, kPeopleSeeds, kStudioSeeds, kVariedPeople, kEvidenceSeeds))
+      ->check(NumberFrom(1, 1000));
+  command.add_option("--from", options.from, "variety: number of the first person")
+      ->check(NumberFrom(1, kMostVaried))
+      ->capture_default_str();
+  std::vector<std::string> labels;
+  for (const Filming& filming : Filmings()) labels.push_back(filming.label);
+  command.add_option("--filmed", options.filmed, "variety: how people are filmed (default: all)")
+      ->delimiter(',')
+      ->check(OneOf(labels));
+  command
+      .add_option("--firsts", options.firsts,
+                  fmt::format("variety and takes: how often each person is tracked, from another "
+                              "first frame set each time (default: {}; takes: {})",
+                              kFirsts, kTakeFirsts))
+      ->check(NumberFrom(1, kMostFirsts));
+  command
+      .add_option("--takes", options.folders,
+                  "takes: folders of recorded takes with truth, of one person or several")
+      ->delimiter(',');
+}
+
+void AddCompareCommand(CLI::App& benchmark) {
+  struct Files {
+    std::filesystem::path before, after;
+  };
+  const auto files = std::make_shared<Files>();
+  CLI::App* command = benchmark.add_subcommand(
+      "compare", "Say whether the people of one scores.csv are tracked better than in another one");
+  command->add_option("BEFORE", files->before, "scores.csv of an earlier benchmark")->required();
+  command->add_option("AFTER", files->after, "scores.csv to compare with it")->required();
+  command->callback([files] {
+    PrintNow(ComparisonText(ComparePaired(ReadScores(files->before), ReadScores(files->after))));
+  });
 }
 
 }  // namespace
@@ -279,48 +195,27 @@ void AddBenchmarkCommand(CLI::App& app) {
   const auto options = std::make_shared<BenchmarkOptions>();
   CLI::App* command = app.add_subcommand(
       "benchmark", "Measure accuracy on a grid of simulated takes, and what affects it");
-  command
-      ->add_option(
-          "--seconds", options->seconds,
-          fmt::format("length of each take [s] (default: {}; several people: {}; studio: {}; "
-                      "paper: {}; evidence: {})",
-                      kSeconds, kPeopleSeconds, kStudioSeconds, kPaperSeconds, kEvidenceSeconds))
-      ->check(NumberFrom(1, 600));
-  command
-      ->add_option(
-          "--motions", options->motions,
-          fmt::format(
-              "motions of the people (default: {}; several people: {}; paper: {}; evidence: {})",
-              fmt::join(kMotions, ","), fmt::join(kPeopleMotions, ","),
-              fmt::join(kPaperMotions, ","), fmt::join(kEvidenceMotions, ",")))
-      ->delimiter(',');
-  command
-      ->add_option("--statures", options->statures_mm,
-                   fmt::format("statures of the people [mm] (default: {}; paper: {}; evidence: {})",
-                               fmt::join(kStatures_mm, ","), fmt::join(kPaperStatures_mm, ","),
-                               fmt::join(kEvidenceStatures_mm, ",")))
-      ->delimiter(',')
-      ->check(NumberFrom(1000, 2100));
-  command
-      ->add_option(
-          "--seeds", options->seeds,
-          fmt::format("number of random seeds per combination (default: {}; several people: {}; "
-                      "studio: {}; variety: {}; evidence: {})",
-                      kSeeds, kPeopleSeeds, kStudioSeeds, kVariedPeople, kEvidenceSeeds))
-      ->check(NumberFrom(1, 1000));
+  AddTakeOptions(*command, *options);
   std::vector<std::string> parts = options->parts;
-  parts.insert(parts.end(), {kPeoplePart, kVarietyPart, kStudioPart, kPaperPart, kEvidencePart});
+  parts.insert(parts.end(),
+               {kPeoplePart, kVarietyPart, kTakesPart, kStudioPart, kPaperPart, kEvidencePart});
   command
       ->add_option("--parts", options->parts,
                    "parts to run; people (two to four at once), variety (of builds, hair, clothes "
-                   "and loads), studio (number, place and pictures of the cameras), paper (its "
-                   "tracker, with truth in place of stages) and evidence (clothes like the wall, "
-                   "and lossy pictures, of 4 to 16 cameras) run only on request")
+                   "and loads), takes (recorded ones), studio (number, place and pictures of the "
+                   "cameras), paper (its tracker, with truth in place of stages) and evidence "
+                   "(clothes like the wall, and lossy pictures, of 4 to 16 cameras) run only on "
+                   "request")
       ->delimiter(',')
       ->check(OneOf(parts))
       ->capture_default_str();
-  command->add_option("--out", options->out, "output folder for accuracy.md and its plots");
-  command->callback([options] { RunBenchmark(*options); });
+  command->add_option("--out", options->out,
+                      "output folder for accuracy.md, its plots, and scores.csv of variety and "
+                      "takes");
+  AddCompareCommand(*command);
+  command->callback([command, options] {
+    if (command->get_subcommands().empty()) RunBenchmark(*options);
+  });
 }
 
 }  // namespace mocap

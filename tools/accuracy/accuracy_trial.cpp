@@ -106,10 +106,12 @@ class TwoSinks : public PoseSink {
 TrialOutcome TrackStudio(const AccuracyTrial& trial, Studio studio, PoseSink& also) {
   ResultSink sink(KeptPeople::kFirst, false);
   TwoSinks both(sink, also);
-  Pipeline pipeline(
-      std::move(studio),
-      {.voxel_mm = trial.voxel_mm, .overflow = Overflow::kWait, .tracker = trial.tracker},
-      LoadBodyTable(trial.body), both);
+  Pipeline pipeline(std::move(studio),
+                    {.voxel_mm = trial.voxel_mm,
+                     .overflow = Overflow::kWait,
+                     .tracker = trial.tracker,
+                     .first_set = trial.first_set},
+                    LoadBodyTable(trial.body), both);
   pipeline.Start();
   pipeline.Join();
   TrialOutcome outcome;

@@ -21,6 +21,7 @@ struct AccuracyTrial {
   double calibration_error_px = 0;
   double covered_share = 0;       ///< As in PictureDisturbance.
   Mishap mishap = Mishap::kNone;  ///< Happens to the first camera, in the middle of the take.
+  std::int64_t first_set = 0;     ///< As in PipelineOptions.
 };
 
 struct TrialOutcome {

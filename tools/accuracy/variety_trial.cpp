@@ -6,14 +6,15 @@
 #include <array>
 #include <cmath>
 
+#include "core/errors.h"
 #include "drivers/simulation/costume.h"
 #include "drivers/simulation/random.h"
 
 namespace mocap {
 namespace {
 
-constexpr std::array kMotions = {"walk", "dance", "stand", "sit",    "run",
-                                 "step", "jump",  "lie",   "gesture"};
+constexpr std::array kVariedMotions = {"walk", "dance", "stand", "sit",    "run",
+                                       "step", "jump",  "lie",   "gesture"};
 constexpr double kWheelchairs = 0.07;  ///< As a share of the people.
 constexpr double kLatestBegin_s = 8;
 constexpr double kFoundLate_s = 0.5, kLostLong_s = 0.3;
@@ -44,8 +45,52 @@ bool IsWorse(const VarietyRow& a, const VarietyRow& b) {
   return a.accuracy.mpjpe_mm > b.accuracy.mpjpe_mm;
 }
 
+/// The errors of a run, and all of its sets from this one on.
+void AddRun(const Evaluation& evaluation, std::int64_t from, std::vector<ErrorsBySet>& runs,
+            std::vector<std::int64_t>& sets) {
+  const std::vector<PoseRow>& poses = evaluation.result.poses;
+  ErrorsBySet& run = runs.emplace_back();
+  for (const FrameError& error : evaluation.accuracy->frames) {
+    const std::int64_t set = poses[static_cast<std::size_t>(error.pose)].frame;
+    if (set >= from) run[set] = error;
+  }
+  sets.clear();
+  for (const PoseRow& row : poses)
+    if (row.frame >= from) sets.push_back(row.frame);
+}
+
+// Whoever was not found by one of the runs was never found.
+void TakeWorst(const AccuracyRow& run, AccuracyRow& worst) {
+  const bool is_never = run.found_after < 0 || worst.found_after < 0;
+  worst.found_after = is_never ? -1 : std::max(worst.found_after, run.found_after);
+  worst.longest_loss = std::max(worst.longest_loss, run.longest_loss);
+  worst.longest_wrong_stretch = std::max(worst.longest_wrong_stretch, run.longest_wrong_stretch);
+}
+
 std::string FoundText(const VarietyRow& row) {
   return row.found_s < 0 ? "never" : fmt::format("{:.2f}", row.found_s);
+}
+
+AccuracyTrial TrialOf(int number, double seconds, const Filming& filming) {
+  const auto seed = static_cast<std::uint64_t>(number);
+  AccuracyTrial trial;
+  trial.studio.varied = true;
+  trial.studio.seed = seed;
+  const bool rolls =
+      simulation::Random(simulation::Mix(seed, simulation::Tag("wheelchair"))).Uniform(0, 1) <
+      kWheelchairs;
+  trial.studio.motion = rolls ? "roll" : kVariedMotions[seed % kVariedMotions.size()];
+  trial.studio.stature_mm =
+      std::round(simulation::Random(simulation::Mix(seed, simulation::Tag("varied stature")))
+                     .Uniform(1150, 1980));
+  trial.studio.seconds = seconds;
+  // In the middle of a motion: crouched, in the air, lying.
+  trial.studio.begin_s = simulation::Random(simulation::Mix(seed, simulation::Tag("varied begin")))
+                             .Uniform(0, kLatestBegin_s);
+  trial.studio.fps = filming.fps;
+  trial.studio.cameras = filming.cameras;
+  trial.covered_share = filming.covered_share;
+  return trial;
 }
 
 }  // namespace
@@ -58,43 +103,46 @@ std::vector<Filming> Filmings() {
           {.label = "2 % covered by squares", .covered_share = 0.02}};
 }
 
-VarietyRow RunVarietyTrial(int number, double seconds, const Filming& filming) {
-  const auto seed = static_cast<std::uint64_t>(number);
-  AccuracyTrial trial;
-  trial.studio.varied = true;
-  trial.studio.seed = seed;
-  const bool rolls =
-      simulation::Random(simulation::Mix(seed, simulation::Tag("wheelchair"))).Uniform(0, 1) <
-      kWheelchairs;
-  trial.studio.motion = rolls ? "roll" : kMotions[seed % kMotions.size()];
-  trial.studio.stature_mm =
-      std::round(simulation::Random(simulation::Mix(seed, simulation::Tag("varied stature")))
-                     .Uniform(1150, 1980));
-  trial.studio.seconds = seconds;
-  // In the middle of a motion: crouched, in the air, lying.
-  trial.studio.begin_s = simulation::Random(simulation::Mix(seed, simulation::Tag("varied begin")))
-                             .Uniform(0, kLatestBegin_s);
-  trial.studio.fps = filming.fps;
-  trial.studio.cameras = filming.cameras;
-  trial.covered_share = filming.covered_share;
-  VarietyRow row{.accuracy = Measure(trial),
-                 .looks = simulation::Describe(simulation::MakeCostume(seed, trial.studio.motion))};
+VarietyRow RunVarietyTrial(int number, double seconds, const Filming& filming, int firsts) {
+  if (std::lround(seconds * filming.fps) < firsts)
+    throw SetupError(fmt::format("--seconds: {} s at {} Hz have fewer than {} frame sets", seconds,
+                                 filming.fps, firsts));
+  AccuracyTrial trial = TrialOf(number, seconds, filming);
+  VarietyRow row{.accuracy = {},
+                 .looks = simulation::Describe(
+                     simulation::MakeCostume(trial.studio.seed, trial.studio.motion))};
+  std::vector<ErrorsBySet> runs;
+  std::vector<std::int64_t> sets;
+  for (int first = 0; first < firsts; ++first) {
+    trial.first_set = first;
+    const TrialOutcome outcome = RunTrial(trial);
+    const AccuracyRow run = RowOf(trial, outcome);
+    if (first == 0) row.accuracy = run;
+    TakeWorst(run, row.accuracy);
+    AddRun(outcome.evaluation, firsts - 1, runs, sets);
+  }
+  row.score = ScoreFirsts(runs, sets);
+  const PoseErrors mean = row.score.Mean().value_or(PoseErrors());
+  row.accuracy.mpjpe_mm = mean.mean_mm;
+  row.accuracy.p95_mm = mean.p95_mm;
+  row.accuracy.angle_deg = mean.angle_deg;
   if (row.accuracy.found_after >= 0) row.found_s = row.accuracy.found_after / filming.fps;
   row.lost_s = row.accuracy.longest_loss / filming.fps;
   return row;
 }
 
 std::string VarietyHeader() {
-  return fmt::format("{:>6} {:<7}{:>8}{:>9}{:>9}{:>9}{:>9}{:>8}{:>7}  {}\n", "number", "motion",
-                     "stature", "mean mm", "95 % mm", "degrees", "found s", "lost s", "wrong",
-                     "wears");
+  return fmt::format("{:>6} {:<7}{:>8}{:>9}{:>9}{:>9}{:>10}{:>9}{:>8}{:>7}  {}\n", "number",
+                     "motion", "stature", "mean mm", "95 % mm", "degrees", "spread mm", "found s",
+                     "lost s", "wrong", "wears");
 }
 
 std::string VarietyLine(const VarietyRow& row) {
   const AccuracyRow& a = row.accuracy;
-  return fmt::format("{:>6} {:<7}{:>8.0f}{:>9.1f}{:>9.1f}{:>9.2f}{:>9}{:>8.2f}{:>7}  {}\n", a.seed,
-                     a.motion, a.stature_mm, a.mpjpe_mm, a.p95_mm, a.angle_deg, FoundText(row),
-                     row.lost_s, a.longest_wrong_stretch, row.looks);
+  return fmt::format("{:>6} {:<7}{:>8.0f}{:>9.1f}{:>9.1f}{:>9.2f}{:>10.1f}{:>9}{:>8.2f}{:>7}  {}\n",
+                     a.seed, a.motion, a.stature_mm, a.mpjpe_mm, a.p95_mm, a.angle_deg,
+                     row.score.spread_mm(), FoundText(row), row.lost_s, a.longest_wrong_stretch,
+                     row.looks);
 }
 
 std::string VarietySummaryText(std::span<const VarietyRow> rows) {

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "tools/accuracy/accuracy_benchmark.h"
+#include "tools/accuracy/first_sets.h"
 
 namespace mocap {
 
@@ -21,12 +22,14 @@ struct Filming {
 /// 30 and 10 Hz, four and eight cameras, imperfect masks.
 std::vector<Filming> Filmings();
 
-/// Tracking of one varied person.
+/// Tracking of one varied person. With several first sets, errors are means over the runs, in the
+/// sets that they have in common; everything else is that of the worst run.
 struct VarietyRow {
   AccuracyRow accuracy;
   std::string looks;    ///< What the person wears.
   double found_s = -1;  ///< Until tracked for the first time; -1: never.
   double lost_s = 0;    ///< Longest time without tracking afterwards.
+  PersonScore score = {};
 };
 
 /// The same people, filmed in one way.
@@ -36,7 +39,9 @@ struct VarietyGrid {
 };
 
 /// Tracks one person. The number determines motion, stature, build, costume and room.
-VarietyRow RunVarietyTrial(int number, double seconds, const Filming& filming);
+/// @param firsts  number of runs; the k-th begins with set k.
+/// @throws SetupError  when that many seconds have fewer sets.
+VarietyRow RunVarietyTrial(int number, double seconds, const Filming& filming, int firsts = 1);
 
 /// Header of VarietyLine's columns.
 std::string VarietyHeader();

@@ -5,6 +5,8 @@
 
 #include <vector>
 
+#include "tests/support/setup_error.h"
+
 namespace mocap {
 namespace {
 
@@ -50,6 +52,19 @@ TEST(Variety, ATrialGivesTheSameForTheSamePerson) {
   EXPECT_GE(row.found_s, 0);
   EXPECT_LT(row.accuracy.mpjpe_mm, 60);
   EXPECT_EQ(RunVarietyTrial(9, 0.5, filming).accuracy.mpjpe_mm, row.accuracy.mpjpe_mm);
+}
+
+TEST(Variety, SeveralFirstSetsAreScoredInTheSameSets) {
+  const Filming filming{.label = "10 Hz", .fps = 10, .cameras = 4};
+  const VarietyRow row = RunVarietyTrial(9, 1, filming, 3);
+  ASSERT_EQ(row.score.firsts.size(), 3u);
+  EXPECT_GT(row.score.sets, 0);
+  EXPECT_LE(row.score.sets, 8) << "the first two of ten sets belong to no score";
+  ASSERT_TRUE(row.score.Mean());
+  EXPECT_DOUBLE_EQ(row.accuracy.mpjpe_mm, row.score.Mean()->mean_mm);
+  EXPECT_GT(row.score.spread_mm(), 0);
+  EXPECT_THAT(testing::SetupErrorOf([&] { RunVarietyTrial(9, 0.5, filming, 6); }),
+              HasSubstr("--seconds: 0.5 s at 10 Hz have fewer than 6 frame sets"));
 }
 
 // Helmet, skirt, backpack and bag.
