@@ -24,6 +24,12 @@
 namespace mocap {
 
 struct PipelineOptions {
+  /// Another tracker of the same sets. What its first set changes can so be seen at little cost.
+  struct OtherStart {
+    std::int64_t first_set = 0;
+    PoseSink* sink = nullptr;  ///< Borrowed for the pipeline's life.
+  };
+
   SegmentationOptions segmentation{};
   double voxel_mm = 25;
   /// kWait: every set is tracked, and poses depend on the frames alone, not on thread timing.
@@ -32,8 +38,9 @@ struct PipelineOptions {
   Overflow overflow = Overflow::kDropOldest;
   LatencyOrigin latency_origin = LatencyOrigin::kCapture;
   TrackerKind tracker = TrackerKind::kSurface;
-  int people = 1;                 ///< Maximum number that is tracked.
-  std::int64_t first_set = 0;     ///< Tracking begins with this set; earlier ones are left out.
+  int people = 1;              ///< Maximum number that is tracked.
+  std::int64_t first_set = 0;  ///< Tracking begins with this set; earlier ones are left out.
+  std::vector<OtherStart> other_starts = {};
   int priority = 0;               ///< Of the threads, SCHED_FIFO; 0: normal scheduling.
   std::vector<int> processors{};  ///< For the threads; empty: all.
   /// Recipients of frames, each with one tap per camera that has a driver; these cameras come

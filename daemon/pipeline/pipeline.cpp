@@ -53,6 +53,12 @@ std::unique_ptr<SideThread> MakeSide(const PipelineOptions& options, SideThread:
   return std::make_unique<SideThread>("newcomers", ThreadsFor(options), std::move(guard));
 }
 
+PeopleCapture MakePeople(const PipelineOptions& options, const BodyTable& body, SideThread* side) {
+  return PeopleCapture(
+      [kind = options.tracker, body] { return MakeMotionCapture(kind, body); },
+      {.most = options.people, .fineness = FinenessFor(options.people), .side = side});
+}
+
 Synchronizer MakeSynchronizer(const Studio& studio, Overflow overflow) {
   const bool is_live = overflow == Overflow::kDropOldest;
   return Synchronizer(static_cast<int>(studio.cameras.size()),
@@ -76,11 +82,11 @@ Pipeline::Pipeline(Studio studio, const PipelineOptions& options, const BodyTabl
             SetWithoutGrid(CountCameras(studio), options.voxel_mm)),
       grids_(RoomySet(0, options.voxel_mm).grid),
       side_(MakeSide(options, [this](const auto& work) { threads_.Guard(work); })),
-      track_(PeopleCapture([kind = options.tracker, body] { return MakeMotionCapture(kind, body); },
-                           {.most = options.people,
-                            .fineness = FinenessFor(options.people),
-                            .side = side_.get()}),
-             options.latency_origin, sink, recorders_, studio.person) {
+      track_(MakePeople(options, body, side_.get()), options.latency_origin, sink, recorders_,
+             studio.person) {
+  for (const PipelineOptions::OtherStart& other : options.other_starts)
+    others_.emplace_back(MakePeople(options, body, nullptr), options.latency_origin, *other.sink,
+                         recorders_);
   const std::vector<CameraCalibration> calibrations = CalibrationsOf(studio);
   const int rays = kRaysPerPerson * FinenessFor(options.people);
   carve_ = std::make_unique<CarveStage>(
@@ -183,6 +189,13 @@ void Pipeline::RunTracking() {
 // Everything before tracking is as without sets left out: what cameras show stays the same.
 void Pipeline::Track(const CarvedSet& set) {
   if (set.frame >= options_.first_set) track_.Process(set);
+  for (std::size_t i = 0; i < others_.size(); ++i)
+    if (set.frame >= options_.other_starts[i].first_set) others_[i].Process(set);
+}
+
+void Pipeline::ChangeSubject(const std::optional<KnownPerson>& subject) {
+  track_.ChangeSubject(subject);
+  for (TrackStage& other : others_) other.ChangeSubject(subject);
 }
 
 bool Pipeline::FeedSerially() {

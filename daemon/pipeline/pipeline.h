@@ -55,7 +55,7 @@ class Pipeline : public FramePath {
 
   /// From the next set on, tracks a person of these sizes. Without sizes, measures those who are
   /// present.
-  void ChangeSubject(const std::optional<KnownPerson>& subject) { track_.ChangeSubject(subject); }
+  void ChangeSubject(const std::optional<KnownPerson>& subject);
   /// From the next set on, a person whose sizes match one of these gets that name.
   void KnowPeople(const std::vector<KnownPerson>& people) { track_.KnowPeople(people); }
   void NamePerson(int id, const std::string& name) { track_.NamePerson(id, name); }
@@ -88,6 +88,7 @@ class Pipeline : public FramePath {
   GridShelf grids_;                   ///< Of sets_.
   std::unique_ptr<SideThread> side_;  ///< Live, with several people.
   TrackStage track_;
+  std::deque<TrackStage> others_;  ///< Of options_.other_starts.
   std::unique_ptr<CameraLines> lines_;
   bool taps_are_held_ = false;
   std::atomic<std::int64_t> carving_turns_{0};

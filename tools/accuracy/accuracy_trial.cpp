@@ -8,6 +8,7 @@
 #include "core/reconstruction/camera/camera_model.h"
 #include "daemon/pipeline/pipeline.h"
 #include "drivers/simulation/random.h"
+#include "tools/accuracy/first_sinks.h"
 #include "tools/accuracy/simulated_points.h"
 #include "tools/results/result_sink.h"
 
@@ -83,11 +84,6 @@ int LongestLoss(const std::vector<PoseRow>& poses) {
   return longest;
 }
 
-class NoSink : public PoseSink {
- public:
-  void OnSet(const TrackedSet& /*set*/) override {}
-};
-
 class TwoSinks : public PoseSink {
  public:
   TwoSinks(PoseSink& first, PoseSink& second) : first_(first), second_(second) {}
@@ -101,19 +97,11 @@ class TwoSinks : public PoseSink {
   PoseSink& second_;
 };
 
-}  // namespace
+PipelineOptions PipelineOf(const AccuracyTrial& trial) {
+  return {.voxel_mm = trial.voxel_mm, .overflow = Overflow::kWait, .tracker = trial.tracker};
+}
 
-TrialOutcome TrackStudio(const AccuracyTrial& trial, Studio studio, PoseSink& also) {
-  ResultSink sink(KeptPeople::kFirst, false);
-  TwoSinks both(sink, also);
-  Pipeline pipeline(std::move(studio),
-                    {.voxel_mm = trial.voxel_mm,
-                     .overflow = Overflow::kWait,
-                     .tracker = trial.tracker,
-                     .first_set = trial.first_set},
-                    LoadBodyTable(trial.body), both);
-  pipeline.Start();
-  pipeline.Join();
+TrialOutcome OutcomeOf(const AccuracyTrial& trial, const ResultSink& sink) {
   TrialOutcome outcome;
   outcome.evaluation = Evaluate(sink.result(), TruthOf(trial.studio, sink.result().poses));
   outcome.acquisition_frames = sink.acquisition_frames();
@@ -122,11 +110,31 @@ TrialOutcome TrackStudio(const AccuracyTrial& trial, Studio studio, PoseSink& al
   return outcome;
 }
 
-TrialOutcome RunTrial(const AccuracyTrial& trial) {
+}  // namespace
+
+TrialOutcome TrackStudio(const AccuracyTrial& trial, Studio studio, PoseSink& also) {
+  ResultSink sink(KeptPeople::kFirst, false);
+  TwoSinks both(sink, also);
+  Pipeline pipeline(std::move(studio), PipelineOf(trial), LoadBodyTable(trial.body), both);
+  pipeline.Start();
+  pipeline.Join();
+  return OutcomeOf(trial, sink);
+}
+
+TrialOutcome RunTrial(const AccuracyTrial& trial) { return RunTrialFrom(trial, 1).front(); }
+
+std::vector<TrialOutcome> RunTrialFrom(const AccuracyTrial& trial, int firsts) {
   Studio studio = OpenSimulatedStudio(trial.studio);
   Disturb(trial, studio);
-  NoSink none;
-  return TrackStudio(trial, std::move(studio), none);
+  FirstSinks sinks(firsts, KeptPeople::kFirst);
+  PipelineOptions options = PipelineOf(trial);
+  options.other_starts = sinks.others();
+  Pipeline pipeline(std::move(studio), options, LoadBodyTable(trial.body), sinks.own());
+  pipeline.Start();
+  pipeline.Join();
+  std::vector<TrialOutcome> outcomes;
+  for (const ResultSink& sink : sinks.all()) outcomes.push_back(OutcomeOf(trial, sink));
+  return outcomes;
 }
 
 }  // namespace mocap

@@ -21,7 +21,6 @@ struct AccuracyTrial {
   double calibration_error_px = 0;
   double covered_share = 0;       ///< As in PictureDisturbance.
   Mishap mishap = Mishap::kNone;  ///< Happens to the first camera, in the middle of the take.
-  std::int64_t first_set = 0;     ///< As in PipelineOptions.
 };
 
 struct TrialOutcome {
@@ -39,6 +38,10 @@ inline constexpr double kWrongMm = 150;
 /// Runs a trial. The same trial gives the same outcome.
 /// @throws SetupError  for invalid studio options.
 TrialOutcome RunTrial(const AccuracyTrial& trial);
+
+/// Runs a trial with several trackers of the same sets, the k-th of which begins with set k.
+/// @param firsts  their number.
+std::vector<TrialOutcome> RunTrialFrom(const AccuracyTrial& trial, int firsts);
 
 /// Tracks a studio that shows the trial's people, whatever its cameras do. @param also  gets every
 /// set.

@@ -14,6 +14,7 @@
 #include "drivers/printable_text.h"
 #include "drivers/take/input_file.h"
 #include "drivers/take/take_layout.h"
+#include "tools/accuracy/first_sinks.h"
 #include "tools/report/people_evaluation.h"
 #include "tools/results/result_sink.h"
 
@@ -54,12 +55,6 @@ TakesFolder TakesIn(const std::filesystem::path& folder) {
   return found;
 }
 
-/// What one run gave, and the capture times of its sets.
-struct TakeRun {
-  PeopleResults people;
-  std::vector<std::int64_t> set_ns;
-};
-
 class TimesSink : public PoseSink {
  public:
   explicit TimesSink(PoseSink& sink) : sink_(sink) {}
@@ -74,9 +69,17 @@ class TimesSink : public PoseSink {
   PoseSink& sink_;
 };
 
-TakeRun TrackTake(const std::filesystem::path& take, bool several_people, int first) {
-  ResultSink sink(several_people ? KeptPeople::kEverybody : KeptPeople::kFirst, false);
-  TimesSink times(sink);
+PeopleResults PeopleOf(const ResultSink& sink, bool several_people) {
+  PeopleResults people;
+  if (!several_people) people.emplace_back("person", sink.result());
+  for (const auto& [id, result] : sink.people()) people.emplace_back(std::to_string(id), result);
+  return people;
+}
+
+/// Fills the sinks. @return  the capture times of all sets.
+std::vector<std::int64_t> TrackTake(const std::filesystem::path& take, bool several_people,
+                                    FirstSinks& sinks) {
+  TimesSink times(sinks.own());
   const Config defaults;
   Pipeline pipeline(OpenTake(take, {}),
                     {.voxel_mm = defaults.voxel_mm,
@@ -84,17 +87,13 @@ TakeRun TrackTake(const std::filesystem::path& take, bool several_people, int fi
                      .latency_origin = LatencyOrigin::kArrival,
                      .tracker = defaults.tracker,
                      .people = several_people ? kMostInTake : 1,
-                     .first_set = first},
+                     .other_starts = sinks.others()},
                     LoadBodyTable(defaults.body), times);
   const std::filesystem::path subject = TakeLayout{take}.Subject();
   if (IsThere(subject)) pipeline.ChangeSubject(KnownPerson{"", LoadSubject(subject)});
   pipeline.Start();
   pipeline.Join();
-  TakeRun run{.people = {}, .set_ns = std::move(times.set_ns)};
-  if (!several_people) run.people.emplace_back("person", sink.result());
-  for (const auto& [id, result] : sink.people())
-    run.people.emplace_back(std::to_string(id), result);
-  return run;
+  return times.set_ns;
 }
 
 /// Keeps the sets from this one on.
@@ -195,17 +194,13 @@ ScoredTake RunTakeTrial(const std::filesystem::path& take, int firsts) {
   MOCAP_CHECK(firsts > 0);
   std::vector<TruePerson> truth = ReadTruePeople(take);
   const bool several_people = truth.size() > 1;
-  std::vector<TakeRun> runs;
+  FirstSinks sinks(firsts, several_people ? KeptPeople::kEverybody : KeptPeople::kFirst);
+  const std::vector<std::int64_t> set_ns = TrackTake(take, several_people, sinks);
   const auto wanted = static_cast<std::size_t>(firsts);
-  for (int first = 0; first < firsts; ++first) {
-    runs.push_back(TrackTake(take, several_people, first));
-    const std::size_t sets = runs.front().set_ns.size();
-    if (sets < wanted)
-      throw SetupError(take.string() + ": has " + Counted(sets, "frame set") +
-                       "; expected at least " + std::to_string(firsts));
-  }
+  if (set_ns.size() < wanted)
+    throw SetupError(take.string() + ": has " + Counted(set_ns.size(), "frame set") +
+                     "; expected at least " + std::to_string(firsts));
   // Between the last set that a run leaves out and the first one that all track.
-  const std::vector<std::int64_t>& set_ns = runs.front().set_ns;
   KeepFromTime(firsts == 1 ? std::numeric_limits<std::int64_t>::min()
                            : std::midpoint(set_ns[wanted - 2], set_ns[wanted - 1]),
                truth);
@@ -213,9 +208,10 @@ ScoredTake RunTakeTrial(const std::filesystem::path& take, int firsts) {
     throw SetupError(take.string() + ": has no truth from set " + std::to_string(firsts - 1) +
                      " on");
   TakeScorer scorer(std::move(truth), several_people);
-  for (TakeRun& run : runs) {
-    KeepFrom(firsts - 1, run.people);
-    scorer.Add(std::move(run.people));
+  for (const ResultSink& sink : sinks.all()) {
+    PeopleResults people = PeopleOf(sink, several_people);
+    KeepFrom(firsts - 1, people);
+    scorer.Add(std::move(people));
   }
   return scorer.Row(LastName(take));
 }

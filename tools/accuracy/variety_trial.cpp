@@ -107,17 +107,15 @@ VarietyRow RunVarietyTrial(int number, double seconds, const Filming& filming, i
   if (std::lround(seconds * filming.fps) < firsts)
     throw SetupError(fmt::format("--seconds: {} s at {} Hz have fewer than {} frame sets", seconds,
                                  filming.fps, firsts));
-  AccuracyTrial trial = TrialOf(number, seconds, filming);
+  const AccuracyTrial trial = TrialOf(number, seconds, filming);
   VarietyRow row{.accuracy = {},
                  .looks = simulation::Describe(
                      simulation::MakeCostume(trial.studio.seed, trial.studio.motion))};
   std::vector<ErrorsBySet> runs;
   std::vector<std::int64_t> sets;
-  for (int first = 0; first < firsts; ++first) {
-    trial.first_set = first;
-    const TrialOutcome outcome = RunTrial(trial);
+  for (const TrialOutcome& outcome : RunTrialFrom(trial, firsts)) {
     const AccuracyRow run = RowOf(trial, outcome);
-    if (first == 0) row.accuracy = run;
+    if (runs.empty()) row.accuracy = run;
     TakeWorst(run, row.accuracy);
     AddRun(outcome.evaluation, firsts - 1, runs, sets);
   }

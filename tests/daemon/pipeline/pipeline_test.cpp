@@ -104,6 +104,21 @@ TEST(Pipeline, SetsBeforeTheFirstAreLeftOutAndTheOthersKeepTheirEvidence) {
   EXPECT_TRUE(serial.seen == later.seen);
 }
 
+TEST(Pipeline, OtherStartsSeeWhatTheyWouldSeeAlone) {
+  RecordingSink all, later, alone;
+  PipelineOptions options = Waiting();
+  options.other_starts = {{12, &later}};
+  Pipeline pipeline(SmallSimulation(), options, LoadBodyTable("full"), all);
+  RunToEnd(pipeline);
+  options.other_starts.clear();
+  options.first_set = 12;
+  Pipeline(SmallSimulation(), options, LoadBodyTable("full"), alone).RunSerially();
+  ASSERT_EQ(all.seen.size(), 24u);
+  ASSERT_NE(alone.seen.back().state, CaptureState::kSearching);
+  EXPECT_TRUE(later.seen == alone.seen);
+  EXPECT_FALSE(alone.seen.front() == all.seen[12]) << "the first set must matter";
+}
+
 TEST(Pipeline, SixtyFourCamerasCarveTogether) {
   RecordingSink sink;
   Pipeline pipeline(SmallSimulation(64, 0.1), Waiting(), LoadBodyTable("full"), sink);
