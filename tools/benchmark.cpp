@@ -31,7 +31,8 @@ namespace {
 constexpr int kMostVaried = 1'000'000, kMostFirsts = 10;
 
 bool HasTakesOfTheGrid(const BenchmarkOptions& options) {
-  const std::array others = {kPeoplePart, kVarietyPart, kPaperPart, kEvidencePart, kTakesPart};
+  const std::array others = {kPeoplePart,   kVarietyPart, kPaperPart,
+                             kEvidencePart, kTakesPart,   kNoisePart};
   return std::ranges::any_of(options.parts, [&](const std::string& part) {
     return std::ranges::find(others, part) == others.end();
   });
@@ -111,12 +112,17 @@ void RunBenchmark(const BenchmarkOptions& options) {
     evidence = RunEvidence(options);
     PrintNow(EvidenceTable(evidence) + CarvingLines());
   }
+  std::string noise;
+  if (options.Wants(kNoisePart)) {
+    noise = NoiseTable(RunNoise(options));
+    PrintNow(noise);
+  }
   if (options.out.empty()) return;
   ReplaceText(options.out / "accuracy.md",
               AccuracyMarkdown(benchmark) + VarietyMarkdown(variety) +
                   TakesMarkdown(takes, options.FirstsOr(kTakeFirsts)) +
                   PaperMarkdown(paper, options.SecondsOr(kPaperSeconds)) +
-                  EvidenceMarkdown(evidence, options.SecondsOr(kEvidenceSeconds)));
+                  EvidenceMarkdown(evidence, options.SecondsOr(kEvidenceSeconds)) + noise);
   const std::vector<ScoreRow> scores = ScoresOf(variety, takes);
   if (!scores.empty()) ReplaceText(options.out / "scores.csv", ScoreCsv(scores));
   if (!benchmark.sweeps.empty()) {
@@ -130,8 +136,9 @@ void AddTakeOptions(CLI::App& command, BenchmarkOptions& options) {
       .add_option(
           "--seconds", options.seconds,
           fmt::format("length of each take [s] (default: {}; several people: {}; studio: {}; "
-                      "paper: {}; evidence: {})",
-                      kSeconds, kPeopleSeconds, kStudioSeconds, kPaperSeconds, kEvidenceSeconds))
+                      "paper: {}; evidence: {}; noise: {})",
+                      kSeconds, kPeopleSeconds, kStudioSeconds, kPaperSeconds, kEvidenceSeconds,
+                      kNoiseSeconds))
       ->check(NumberFrom(1, 600));
   command
       .add_option(
@@ -152,10 +159,11 @@ void AddTakeOptions(CLI::App& command, BenchmarkOptions& options) {
       .add_option(
           "--seeds", options.seeds,
           fmt::format("number of random seeds per combination (default: {}; several people: {}; "
-                      "studio: {}; variety: {} people; evidence: {})",
-                      kSeeds, kPeopleSeeds, kStudioSeeds, kVariedPeople, kEvidenceSeeds))
+                      "studio: {}; variety: {} people; evidence: {}; noise: {} people)",
+                      kSeeds, kPeopleSeeds, kStudioSeeds, kVariedPeople, kEvidenceSeeds,
+                      kNoisePeople))
       ->check(NumberFrom(1, 1000));
-  command.add_option("--from", options.from, "variety: number of the first person")
+  command.add_option("--from", options.from, "variety and noise: number of the first person")
       ->check(NumberFrom(1, kMostVaried))
       ->capture_default_str();
   std::vector<std::string> labels;
@@ -197,15 +205,16 @@ void AddBenchmarkCommand(CLI::App& app) {
       "benchmark", "Measure accuracy on a grid of simulated takes, and what affects it");
   AddTakeOptions(*command, *options);
   std::vector<std::string> parts = options->parts;
-  parts.insert(parts.end(),
-               {kPeoplePart, kVarietyPart, kTakesPart, kStudioPart, kPaperPart, kEvidencePart});
+  parts.insert(parts.end(), {kPeoplePart, kVarietyPart, kTakesPart, kStudioPart, kPaperPart,
+                             kEvidencePart, kNoisePart});
   command
-      ->add_option("--parts", options->parts,
-                   "parts to run; people (two to four at once), variety (of builds, hair, clothes "
-                   "and loads), takes (recorded ones), studio (number, place and pictures of the "
-                   "cameras), paper (its tracker, with truth in place of stages) and evidence "
-                   "(clothes like the wall, and lossy pictures, of 4 to 16 cameras) run only on "
-                   "request")
+      ->add_option(
+          "--parts", options->parts,
+          "parts to run; people (two to four at once), variety (of builds, hair, clothes "
+          "and loads), takes (recorded ones), studio (number, place and pictures of the "
+          "cameras), paper (its tracker, with truth in place of stages), evidence (clothes "
+          "like the wall, and lossy pictures, of 4 to 16 cameras) and noise (of the "
+          "evidence, at true poses of varied people) run only on request")
       ->delimiter(',')
       ->check(OneOf(parts))
       ->capture_default_str();

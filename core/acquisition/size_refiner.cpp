@@ -108,7 +108,7 @@ void SizeRefiner::Add(const BodyModel& body, SurfaceFit& fit, const PoseState& p
   InformationVector g = InformationVector::Zero(n);
   InformationVector row(n);
   for (const SurfaceResidual& residual : fit.ResidualsAt(body, pose)) {
-    if (!residual.is_edge) continue;
+    if (residual.kind == ResidualKind::kSurface) continue;
     row.head(pose_dof) = residual.J_outside_by_step;
     for (int i = 0; i < count_; ++i) row[pose_dof + i] = by_size_.OutwardBySize(residual, i);
     const double variance =

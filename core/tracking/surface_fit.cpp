@@ -65,7 +65,7 @@ void SurfaceFit::ForEachContact(const Visit& visit) {
     const double length = offset.norm();
     if (length < 1) continue;
     residual.capsule = match.capsule;
-    residual.is_edge = matcher_.contacts()[i].is_edge;
+    residual.kind = matcher_.contacts()[i].is_edge ? ResidualKind::kRay : ResidualKind::kSurface;
     residual.share = match.distance.share;
     residual.p_W = match.distance.segment_W;
     residual.normal_W = offset / length - LeanOf(posed_[match.capsule], residual.share);
@@ -78,7 +78,7 @@ void SurfaceFit::ForEachContact(const Visit& visit) {
 template <typename Visit>
 void SurfaceFit::ForEachProtrusion(const BodyModel& body, const Visit& visit) const {
   SurfaceResidual residual;
-  residual.is_edge = true;
+  residual.kind = ResidualKind::kBorder;
   for (std::size_t i = 0; i < posed_.size(); ++i) {
     residual.capsule = static_cast<int>(i);
     for (const double share : kCoreShares) {

@@ -52,10 +52,14 @@ struct SurfaceFitQuality {
   double CostWithoutStray() const { return Cost() - 0.5 * missing_share * kExplainedMm; }
 };
 
+/// What a residual comes from: a voxel of the surface, a ray that grazes the person, or flesh
+/// beyond a silhouette's border.
+enum class ResidualKind { kSurface, kRay, kBorder };
+
 /// One contact compared with the model.
 struct SurfaceResidual {
-  int capsule;   ///< Index into the body's shape().
-  bool is_edge;  ///< From an outline, not from a voxel.
+  int capsule;  ///< Index into the body's shape().
+  ResidualKind kind;
   double share;  ///< Position along its core.
   Vector3 p_W;   ///< Target point of the capsule.
   Vector3

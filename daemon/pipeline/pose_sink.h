@@ -20,6 +20,7 @@ struct TrackedSet {
   const BodyModel& body;                    ///< The same person's.
   std::span<const PersonView> people = {};  ///< All of them.
   const VoxelGrid& grid;
+  std::span<const Outline> outlines = {};  ///< One per camera of the studio.
 };
 
 /// Receives tracked sets in order, in the pipeline's last thread.

@@ -95,7 +95,8 @@ void TrackStage::Process(const CarvedSet& set) {
                .result = first.result(),
                .body = first.body(),
                .people = people_.people(),
-               .grid = set.grid});
+               .grid = set.grid,
+               .outlines = set.outlines});
   recorders_[Stage::kPublish].Record(SteadyNs() - publish_ns);
   const std::int64_t from_ns =
       origin_ == LatencyOrigin::kCapture ? set.capture_ns : set.complete_ns;

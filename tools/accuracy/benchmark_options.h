@@ -10,9 +10,9 @@ namespace mocap {
 
 // Defaults of a part.
 inline constexpr double kSeconds = 10, kPeopleSeconds = 20, kStudioSeconds = 2, kPaperSeconds = 4,
-                        kEvidenceSeconds = 2;
+                        kEvidenceSeconds = 2, kNoiseSeconds = 4;
 inline constexpr int kSeeds = 3, kPeopleSeeds = 2, kStudioSeeds = 2, kVariedPeople = 200,
-                     kEvidenceSeeds = 1, kFirsts = 1, kTakeFirsts = 8;
+                     kEvidenceSeeds = 1, kNoisePeople = 90, kFirsts = 1, kTakeFirsts = 8;
 inline const std::vector<std::string> kMotions = {"walk", "run", "jump",  "dance",  "sit",
                                                   "step", "lie", "stand", "gesture"};
 inline const std::vector<std::string> kPeopleMotions = {"walk", "meet", "dance", "visit"};
@@ -26,7 +26,8 @@ inline const std::vector<double> kStatures_mm = {1150, 1550, 1950},
 
 /// Each takes as long as all others together or longer, so they run only on request.
 inline const std::string kPeoplePart = "people", kVarietyPart = "variety", kStudioPart = "studio",
-                         kPaperPart = "paper", kEvidencePart = "evidence", kTakesPart = "takes";
+                         kPaperPart = "paper", kEvidencePart = "evidence", kTakesPart = "takes",
+                         kNoisePart = "noise";
 
 struct BenchmarkOptions {
   std::filesystem::path out;

@@ -132,6 +132,18 @@ std::vector<EvidenceRow> RunEvidence(const BenchmarkOptions& options) {
   return rows;
 }
 
+std::vector<NoiseTake> RunNoise(const BenchmarkOptions& options) {
+  std::vector<NoiseTake> takes;
+  const int end = options.from + options.SeedsOr(kNoisePeople);
+  for (int number = options.from; number < end; ++number) {
+    takes.push_back(RunNoiseTrial(
+        VarietyTrialOf(number, options.SecondsOr(kNoiseSeconds), Filmings().front())));
+    PrintNow(fmt::format("person {}: {} sets, {} left out\n", number, takes.back().sets,
+                         takes.back().left_out));
+  }
+  return takes;
+}
+
 std::vector<PeopleRow> RunPeople(const BenchmarkOptions& options) {
   std::vector<PeopleRow> rows;
   PrintNow(PeopleHeader());

@@ -7,6 +7,7 @@
 #include "tools/accuracy/accuracy_benchmark.h"
 #include "tools/accuracy/benchmark_options.h"
 #include "tools/accuracy/evidence_trial.h"
+#include "tools/accuracy/noise_trial.h"
 #include "tools/accuracy/paper_trial.h"
 #include "tools/accuracy/takes_trial.h"
 #include "tools/accuracy/variety_trial.h"
@@ -25,6 +26,8 @@ std::vector<PeopleRow> RunPeople(const BenchmarkOptions& options);
 std::vector<VarietyGrid> RunVariety(const BenchmarkOptions& options);
 std::vector<PaperRow> RunPaper(const BenchmarkOptions& options);
 std::vector<EvidenceRow> RunEvidence(const BenchmarkOptions& options);
+/// Measures the noise of the evidence at the true poses of varied people.
+std::vector<NoiseTake> RunNoise(const BenchmarkOptions& options);
 /// Tracks recorded takes. @param folders  as FoldersOfTakes returns them.
 std::vector<ScoredTakes> RunTakes(const BenchmarkOptions& options,
                                   const std::vector<TakesFolder>& folders);

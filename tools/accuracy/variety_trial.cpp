@@ -71,7 +71,17 @@ std::string FoundText(const VarietyRow& row) {
   return row.found_s < 0 ? "never" : fmt::format("{:.2f}", row.found_s);
 }
 
-AccuracyTrial TrialOf(int number, double seconds, const Filming& filming) {
+}  // namespace
+
+std::vector<Filming> Filmings() {
+  return {{.label = "30 Hz"},
+          {.label = "10 Hz", .fps = 10},
+          {.label = "four cameras", .cameras = 4},
+          {.label = "eight cameras", .cameras = 8},
+          {.label = "2 % covered by squares", .covered_share = 0.02}};
+}
+
+AccuracyTrial VarietyTrialOf(int number, double seconds, const Filming& filming) {
   const auto seed = static_cast<std::uint64_t>(number);
   AccuracyTrial trial;
   trial.studio.varied = true;
@@ -93,21 +103,11 @@ AccuracyTrial TrialOf(int number, double seconds, const Filming& filming) {
   return trial;
 }
 
-}  // namespace
-
-std::vector<Filming> Filmings() {
-  return {{.label = "30 Hz"},
-          {.label = "10 Hz", .fps = 10},
-          {.label = "four cameras", .cameras = 4},
-          {.label = "eight cameras", .cameras = 8},
-          {.label = "2 % covered by squares", .covered_share = 0.02}};
-}
-
 VarietyRow RunVarietyTrial(int number, double seconds, const Filming& filming, int firsts) {
   if (std::lround(seconds * filming.fps) < firsts)
     throw SetupError(fmt::format("--seconds: {} s at {} Hz have fewer than {} frame sets", seconds,
                                  filming.fps, firsts));
-  const AccuracyTrial trial = TrialOf(number, seconds, filming);
+  const AccuracyTrial trial = VarietyTrialOf(number, seconds, filming);
   VarietyRow row{.accuracy = {},
                  .looks = simulation::Describe(
                      simulation::MakeCostume(trial.studio.seed, trial.studio.motion))};

@@ -38,7 +38,9 @@ struct VarietyGrid {
   std::vector<VarietyRow> rows;
 };
 
-/// Tracks one person. The number determines motion, stature, build, costume and room.
+/// Returns a person's take. The number determines motion, stature, build, costume and room.
+AccuracyTrial VarietyTrialOf(int number, double seconds, const Filming& filming);
+/// Tracks one person.
 /// @param firsts  number of runs; the k-th begins with set k.
 /// @throws SetupError  when that many seconds have fewer sets.
 VarietyRow RunVarietyTrial(int number, double seconds, const Filming& filming, int firsts = 1);

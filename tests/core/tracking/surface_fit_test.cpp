@@ -44,7 +44,7 @@ TEST_F(Fit, ResidualsFollowAStepAsTheirJacobiansSay) {
       const double slope = (residuals[i].outside_mm - after[i].outside_mm) / kStep_rad;
       // Along an edge the nearest place slides where a capsule tapers, which the Jacobian leaves
       // out.
-      const double share = residuals[i].is_edge ? 0.12 : 0.01;
+      const double share = residuals[i].kind == ResidualKind::kSurface ? 0.01 : 0.12;
       const double tolerance = share * std::abs(residuals[i].J_outside_by_step[column]) + 2;
       differing += std::abs(slope - residuals[i].J_outside_by_step[column]) > tolerance;
     }
