@@ -5,7 +5,8 @@
 namespace mocap {
 namespace {
 
-// Shoes and hair make people taller than their bodies by about 20 and 15 mm.
+// Shoes and hair make people taller than their bodies by about 20 and 15 mm. Hair is as thick
+// behind the skull as above it.
 constexpr double kSole_mm = 20;
 constexpr double kHair_mm = 15;
 
@@ -27,9 +28,10 @@ class ShapeBuilder {
     capsules_.back().cloth_b_mm = cloth_b;
   }
 
-  // The chest is deeper than the waist, and the shoulder blades lie behind. Soft tissue reaches
-  // about 65 mm above the shoulder joint (Rab, Petuskey, Bagley 2002). Depth above the average for
-  // the stature is added in front: the back stays at the spine.
+  // The chest is deeper than the waist, and the shoulder blades lie behind. Flesh reaches about 50
+  // mm above the shoulder joint, to the acromion. Of the pelvis, more lies behind the hip joints
+  // than in front of them (Harrington et al. 2007). Depth above the average for the stature is
+  // added in front: the back stays at the spine.
   void AddTrunk() {
     const BodySizes& s = sizes_;
     const double radius = s.torso_depth / 2;
@@ -40,13 +42,15 @@ class ShapeBuilder {
     for (const double side : {1.0, -1.0}) {
       const Vector3 waist(forward, side * 0.85 * chest_y, 0);
       Add(BodyPart::kTorso, Segment::kTorso, waist,
-          {forward - 0.05 * radius, side * chest_y, shoulder.z() - 0.5 * radius}, 0.85 * radius,
+          {forward - 0.05 * radius, side * chest_y, shoulder.z() - 0.68 * radius}, 0.85 * radius,
           1.02 * radius);
       Add(BodyPart::kTorso, side > 0 ? Segment::kShoulderL : Segment::kShoulderR,
-          {shoulder.x() - 0.1 * radius, side * chest_y, shoulder.z() - 0.1 * radius},
-          {shoulder.x(), side * 0.85 * shoulder.y(), shoulder.z()}, 0.8 * radius, 0.53 * radius);
+          {shoulder.x() - 0.1 * radius, side * chest_y, shoulder.z() - 0.28 * radius},
+          {shoulder.x(), side * 0.85 * shoulder.y(), shoulder.z() - 0.18 * radius}, 0.8 * radius,
+          0.53 * radius);
       Add(BodyPart::kTorso, Segment::kPelvis, waist,
-          {hip.x(), side * 0.9 * hip.y(), hip.z() + 0.2 * radius}, 0.85 * radius, 0.95 * radius);
+          {hip.x() - 0.08 * radius, side * 0.9 * hip.y(), hip.z() + 0.2 * radius}, 0.85 * radius,
+          0.95 * radius);
     }
   }
 
@@ -58,17 +62,18 @@ class ShapeBuilder {
     const double skull_radius = 0.45 * width;
     const double skull_z = s.head / 2 + kHair_mm - skull_radius;
     const Vector3 forward(0.12 * width, 0, 0);
-    Add(BodyPart::kHead, Segment::kHead, head - forward + Vector3(0, 0, skull_z),
+    Add(BodyPart::kHead, Segment::kHead, head - forward + Vector3(-kHair_mm, 0, skull_z),
         head + forward + Vector3(0, 0, skull_z), skull_radius, skull_radius);
     const double jaw_radius = 0.36 * width;
     Add(BodyPart::kHead, Segment::kHead, head + Vector3(0.1 * width, 0, skull_z),
         head + Vector3(0.2 * width, 0, -s.head / 2 + jaw_radius), 0.4 * width, jaw_radius);
     const Vector3 neck = At(Point::kNeck);
     const double neck_radius = 0.31 * width;
-    Add(BodyPart::kTorso, Segment::kTorso, neck + Vector3(0.05 * width, 0, -0.3 * s.neck),
+    Add(BodyPart::kTorso, Segment::kTorso, neck + Vector3(0.05 * width, 0, -0.17 * s.neck),
         neck + 0.5 * (head - neck), neck_radius, neck_radius);
   }
 
+  // The flesh over the shoulder joint is thinner than that beside it.
   void AddArm(BodyPart upper, BodyPart lower, Segment upper_segment, Segment lower_segment,
               Segment hand, Point shoulder_point, Point elbow_point, Point wrist_point,
               Point tips_point) {
@@ -78,7 +83,8 @@ class ShapeBuilder {
     const Vector3 tips = At(tips_point);
     const double upper_radius = s.upper_arm_width / 2;
     const double lower_radius = s.lower_arm_width / 2;
-    Add(upper, upper_segment, shoulder, elbow, 1.2 * upper_radius, 0.85 * upper_radius, true);
+    const Vector3 deltoid = shoulder + 0.05 * (elbow - shoulder);
+    Add(upper, upper_segment, deltoid, elbow, 1.2 * upper_radius, 0.85 * upper_radius, true);
     const Vector3 wrist = At(wrist_point);
     const double hand_radius = 0.9 * lower_radius;
     const Vector3 fingers = tips - hand_radius * (tips - elbow).normalized();
@@ -86,8 +92,9 @@ class ShapeBuilder {
     Add(lower, hand, wrist, fingers, lower_radius, hand_radius, true);
   }
 
-  // The thigh bulges in front of the line from hip to knee, the calf behind that from knee to
-  // ankle. Foot length and breadth are shares of the stature: Winter 2009, Fig. 4.1.
+  // The thigh's root lies behind the hip, its bulge in front of the line from hip to knee, the calf
+  // behind that from knee to ankle. Foot length and breadth are shares of the stature: Winter 2009,
+  // Fig. 4.1.
   void AddLeg(BodyPart upper, BodyPart lower, Segment upper_segment, Segment lower_segment,
               Segment foot, Point hip_point, Point knee_point, Point ankle_point,
               Point foot_point) {
@@ -101,7 +108,8 @@ class ShapeBuilder {
     const Vector3 front = hip + kFront * (knee - hip) + Vector3(0.1 * thigh_radius, 0, 0);
     const double front_radius = 0.5 * (1.1 * thigh_radius + 1.1 * calf_radius);
     const double front_drape = s.drape_hip + kFront * (s.drape_knee - s.drape_hip);
-    Add(upper, upper_segment, hip, front, 1.1 * thigh_radius, front_radius);
+    const Vector3 root = hip - Vector3(0.1 * thigh_radius, 0, 0);
+    Add(upper, upper_segment, root, front, 1.1 * thigh_radius, front_radius);
     Drape(s.drape_hip, front_drape);
     Add(upper, upper_segment, front, knee, front_radius, 1.05 * calf_radius);
     Drape(front_drape, s.drape_knee);

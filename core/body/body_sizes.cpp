@@ -15,11 +15,12 @@ BodySizes AverageSizes(double stature_mm) {
   const double h = stature_mm;
   // Children have shorter legs (Bogin and Varela-Silva 2010). Their heads are nearly as large as an
   // adult's (195 mm at 1.15 m, 228 mm at 1.755 m: Snyder et al. 1977, ANSUR). Limb widths follow
-  // from circumferences (ANSUR, Gordon et al. 1989).
+  // from circumferences (ANSUR, Gordon et al. 1989). C7/T1 lies 0.148 of the stature below the
+  // vertex: docs/poses.md, "Where joints lie".
   const double childhood = std::clamp((1600 - h) / 500, 0.0, 1.0);
   const double leg_share = 1 - 0.07 * childhood;
   const double head = 228 + 0.0545 * (h - 1755);
-  const double neck = 0.577 * head;
+  const double neck = 0.64 * head;
   const double thigh = 0.245 * leg_share * h;
   const double calf = 0.285 * leg_share * h;
   return {.torso = h - head / 2 - neck - thigh - calf,

@@ -10,7 +10,7 @@ namespace mocap {
 
 /// A person's sizes [mm]. These are full sizes, the paper's 2λ.
 struct BodySizes {
-  double torso = 0;  ///< Hip line to neck.
+  double torso = 0;  ///< Hip line to neck joint, C7/T1.
   double torso_width = 0;
   double torso_depth = 0;
   double head = 0;        ///< Chin to vertex.
@@ -72,17 +72,18 @@ using BodyPlaces = Eigen::Matrix<double, 3, kPlaceCount>;
 /// paper's Fig. 3.
 ///
 /// The spine runs behind the middle of the trunk, the hip joints slightly behind it. With the arm
-/// hanging, the shoulder joint lies 0.08 of the stature below C7/T1: Winter's (2009, Fig. 4.1)
-/// shoulder minus 0.17 of the breadth between the acromia (Rab, Petuskey, Bagley 2002). The upper
-/// end of the breastbone lies 0.05 below C7/T1 (de Leva 1996).
+/// hanging, the shoulder joint lies 0.061 of the stature below C7/T1: 50 mm below the acromion of
+/// an average man, in the middle between Rab, Petuskey, Bagley (2002) and de Leva (1996). The upper
+/// end of the breastbone lies 0.05 below the tip of C7 (de Leva 1996). docs/poses.md has all
+/// sources.
 struct JointPlacement {
   double neck_behind = 0.06;
   double hip_behind = 0.03;
   double shoulder_behind = 0.03;
-  double shoulder_below_neck = 0.245;
-  double clavicle_below_neck = 0.153;
+  double shoulder_below_neck = 0.189;
+  double clavicle_below_neck = 0.130;
   /// Forward offset of the head's centre from C7/T1, as a share of its height above C7/T1.
-  double head_forward = 0.35;
+  double head_forward = 0.316;
 };
 
 /// Computes points and joints at the reference configuration, in the torso's frame; 3 × 29, column
