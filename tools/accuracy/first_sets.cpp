@@ -8,20 +8,26 @@
 namespace mocap {
 namespace {
 
-std::vector<std::int64_t> CommonSets(std::span<const ErrorsBySet> runs) {
-  const auto first = std::ranges::find_if(runs, [](const auto& run) { return !run.empty(); });
-  std::vector<std::int64_t> common;
-  if (first == runs.end()) return common;
-  for (const auto& [set, error] : *first) {
-    const bool is_common = std::ranges::all_of(
-        runs, [set](const ErrorsBySet& run) { return run.empty() || run.contains(set); });
-    if (is_common) common.push_back(set);
+std::int64_t TrackedOf(const ErrorsBySet& run, std::span<const std::int64_t> wanted) {
+  return std::ranges::count_if(wanted, [&run](std::int64_t set) { return run.contains(set); });
+}
+
+/// The wanted sets that all runs track, except those that track none of them.
+std::vector<std::int64_t> CommonSets(std::span<const ErrorsBySet> runs,
+                                     std::span<const std::int64_t> wanted) {
+  std::vector<std::int64_t> common(wanted.begin(), wanted.end());
+  bool is_tracked = false;
+  for (const ErrorsBySet& run : runs) {
+    if (TrackedOf(run, wanted) == 0) continue;
+    is_tracked = true;
+    std::erase_if(common, [&run](std::int64_t set) { return !run.contains(set); });
   }
+  if (!is_tracked) common.clear();
   return common;
 }
 
 std::optional<PoseErrors> ErrorsIn(const ErrorsBySet& run, std::span<const std::int64_t> sets) {
-  if (run.empty() || sets.empty()) return std::nullopt;
+  if (sets.empty()) return std::nullopt;
   std::vector<double> distances_mm;
   double angle_rad = 0;
   for (const std::int64_t set : sets) {
@@ -67,13 +73,12 @@ double PersonScore::spread_mm() const {
 
 PersonScore ScoreFirsts(std::span<const ErrorsBySet> runs, std::span<const std::int64_t> wanted) {
   MOCAP_CHECK(!wanted.empty());
-  const std::vector<std::int64_t> common = CommonSets(runs);
+  const std::vector<std::int64_t> common = CommonSets(runs, wanted);
   PersonScore score{.firsts = {}, .sets = static_cast<int>(common.size())};
   for (const ErrorsBySet& run : runs) {
-    const auto tracked =
-        std::ranges::count_if(wanted, [&run](std::int64_t set) { return run.contains(set); });
-    score.firsts.push_back(
-        {ErrorsIn(run, common), static_cast<double>(tracked) / static_cast<double>(wanted.size())});
+    const std::int64_t tracked = TrackedOf(run, wanted);
+    score.firsts.push_back({tracked > 0 ? ErrorsIn(run, common) : std::nullopt,
+                            static_cast<double>(tracked) / static_cast<double>(wanted.size())});
   }
   return score;
 }

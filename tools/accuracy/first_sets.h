@@ -29,7 +29,7 @@ struct FirstScore {
 /// Several runs on one person, the k-th of which began with set k.
 struct PersonScore {
   std::vector<FirstScore> firsts;
-  int sets = 0;  ///< In which all runs track the person, except those that never do.
+  int sets = 0;  ///< That are scored: all runs track the person, except those that never do.
 
   /// Means over the runs; empty if none tracked the person.
   std::optional<PoseErrors> Mean() const;
@@ -40,8 +40,7 @@ struct PersonScore {
 
 /// Scores runs on the sets that they have in common, so that a run is not better for having missed
 /// the difficult ones.
-/// @param runs  errors in the sets that all runs could track.
-/// @param wanted  the sets of which tracked_share is a share; not empty.
+/// @param wanted  the sets in which the person should be tracked; others do not count. Not empty.
 PersonScore ScoreFirsts(std::span<const ErrorsBySet> runs, std::span<const std::int64_t> wanted);
 
 }  // namespace mocap

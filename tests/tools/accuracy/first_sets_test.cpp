@@ -47,6 +47,16 @@ TEST(FirstSets, ARunThatNeverTracksTakesNoSetsFromTheOthers) {
   EXPECT_DOUBLE_EQ(score.tracked_share(), 0.5);
 }
 
+TEST(FirstSets, SetsInWhichNobodyNeedBeTrackedDoNotCount) {
+  const std::vector runs = {RunOf({{7, 10}, {8, 20}, {9, 400}}), RunOf({{7, 10}, {8, 20}}),
+                            RunOf({{9, 300}})};
+  const PersonScore score = ScoreFirsts(runs, std::vector<std::int64_t>{7, 8});
+  EXPECT_EQ(score.sets, 2);
+  EXPECT_NEAR(score.Mean()->mean_mm, 15, 1e-9);
+  EXPECT_FALSE(score.firsts[2].errors);
+  EXPECT_DOUBLE_EQ(score.firsts[2].tracked_share, 0);
+}
+
 TEST(FirstSets, NobodyHasNoErrors) {
   const PersonScore score =
       ScoreFirsts(std::vector{RunOf({}), RunOf({})}, std::vector<std::int64_t>{7});
