@@ -181,7 +181,7 @@ TEST_F(Recovery, ASmallGainIsTakenAtOnceOnlyIfFramesAreRare) {
     return pose;
   };
   const PoseState hanging = in_the_middle(Standing(body_, {}));
-  const PoseState bent = in_the_middle(Standing(body_, {.arm_l = {.elbow = 50}}));
+  const PoseState bent = in_the_middle(Standing(body_, {.arm_l = {.elbow = 58}}));
   EXPECT_TRUE(RecoverLater(hanging, bent, kAtTenHz_s));
   recovery_ = LimbRecovery(body_.table());
   EXPECT_FALSE(RecoverLater(hanging, bent, kAtThirtyHz_s));
