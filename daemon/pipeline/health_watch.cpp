@@ -1,6 +1,5 @@
 #include "daemon/pipeline/health_watch.h"
 
-#include <bit>
 #include <numeric>
 #include <utility>
 
@@ -19,9 +18,7 @@ constexpr double kAnotherPlace_mm = 150;
 constexpr double kLeastPerson_mm3 = 1e7;
 
 double VolumeOf(const VoxelGrid& grid) {
-  std::int64_t voxels = 0;
-  for (const std::uint64_t word : grid.words()) voxels += std::popcount(word);
-  return static_cast<double>(voxels) * grid.voxel_mm() * grid.voxel_mm() * grid.voxel_mm();
+  return static_cast<double>(grid.Count()) * grid.voxel_mm() * grid.voxel_mm() * grid.voxel_mm();
 }
 
 template <typename Value>

@@ -160,6 +160,17 @@ ImageView<const std::uint8_t> SimulatedCamera::TrueMask() {
   return static_cast<const Image<std::uint8_t>&>(mask_).view();
 }
 
+Silhouette SimulatedCamera::TrueSilhouette() {
+  const ImageView<const std::uint8_t> mask = TrueMask();
+  Silhouette silhouette(mask.width(), mask.height());
+  for (int y = 0; y < mask.height(); ++y) {
+    for (int x = 0; x < mask.width(); ++x) {
+      if (mask(x, y) != 0) silhouette.Set(x, y);
+    }
+  }
+  return silhouette;
+}
+
 SimulatedStudio::SimulatedStudio(const SimulatedStudioOptions& options)
     : scene_(std::make_shared<const simulation::Scene>(options)) {
   for (int i = 0; i < options.cameras; ++i)

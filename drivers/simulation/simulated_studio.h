@@ -113,6 +113,8 @@ class SimulatedCamera : public CameraDriver {
   void Stop() override;
   /// Mask of all people visible in the last frame: 255, else 0. Valid until the next call.
   ImageView<const std::uint8_t> TrueMask();
+  /// The same as a silhouette, as exact as pixels allow.
+  Silhouette TrueSilhouette();
 
  private:
   GrabStatus GrabPainted(Frame& frame, std::chrono::milliseconds timeout);

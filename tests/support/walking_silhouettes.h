@@ -14,16 +14,6 @@ struct WalkingSilhouettes {
   std::vector<std::vector<Silhouette>> moments;  ///< By moment, a second apart, then by camera.
 };
 
-inline Silhouette SilhouetteOf(ImageView<const std::uint8_t> mask) {
-  Silhouette silhouette(mask.width(), mask.height());
-  for (int y = 0; y < mask.height(); ++y) {
-    for (int x = 0; x < mask.width(); ++x) {
-      if (mask(x, y) != 0) silhouette.Set(x, y);
-    }
-  }
-  return silhouette;
-}
-
 /// Ten seconds, made once.
 inline const WalkingSilhouettes& WalkOfTenSeconds() {
   static const WalkingSilhouettes walk = [] {
@@ -39,7 +29,7 @@ inline const WalkingSilhouettes& WalkOfTenSeconds() {
       for (std::vector<Silhouette>& moment : made.moments) {
         Frame frame;
         camera->Grab(frame, std::chrono::milliseconds(0));
-        moment.push_back(SilhouetteOf(camera->TrueMask()));
+        moment.push_back(camera->TrueSilhouette());
       }
     }
     return made;

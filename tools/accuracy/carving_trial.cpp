@@ -2,7 +2,6 @@
 
 #include <fmt/core.h>
 
-#include <bit>
 #include <deque>
 #include <vector>
 
@@ -30,7 +29,7 @@ class TrueMoment {
       Frame frame;
       simulated->Start();
       MOCAP_CHECK(simulated->Grab(frame, {}) == GrabStatus::kFrame);
-      silhouettes_.push_back(SilhouetteOfMask(simulated->TrueMask()));
+      silhouettes_.push_back(simulated->TrueSilhouette());
       tables_.emplace_back(camera.calibration);
       views_.push_back({&tables_.back(), &silhouettes_.back(), camera.calibration.X_CW});
     }
@@ -56,22 +55,6 @@ class TrueMoment {
 
 }  // namespace
 
-Silhouette SilhouetteOfMask(ImageView<const std::uint8_t> mask) {
-  Silhouette silhouette(mask.width(), mask.height());
-  for (int y = 0; y < mask.height(); ++y) {
-    for (int x = 0; x < mask.width(); ++x) {
-      if (mask(x, y) != 0) silhouette.Set(x, y);
-    }
-  }
-  return silhouette;
-}
-
-std::int64_t CountVoxels(const VoxelGrid& grid) {
-  std::int64_t count = 0;
-  for (const std::uint64_t word : grid.words()) count += std::popcount(word);
-  return count;
-}
-
 double ShareCarvedByOneMore(int cameras) {
   Carver carver({.voxel_mm = kVoxel_mm, .several_people = true});
   VoxelGrid hull;
@@ -79,12 +62,12 @@ double ShareCarvedByOneMore(int cameras) {
   for (int i = 0; i < kMoments; ++i) {
     const TrueMoment moment(cameras, i * kStep_s);
     carver.Carve(moment.views(), hull);
-    const auto all = static_cast<double>(CountVoxels(hull));
+    const auto all = static_cast<double>(hull.Count());
     for (int left_out = 0; left_out < cameras; ++left_out) {
       std::vector<CarvingView> others = moment.views();
       others.erase(others.begin() + left_out);
       carver.Carve(others, hull);
-      sum += 1 - all / static_cast<double>(CountVoxels(hull));
+      sum += 1 - all / static_cast<double>(hull.Count());
     }
   }
   return sum / (kMoments * cameras);

@@ -1,17 +1,9 @@
 // Measures by how much one more camera makes the hulls of people smaller.
 #pragma once
 
-#include <cstdint>
 #include <string>
 
-#include "core/image.h"
-#include "core/reconstruction/carving/voxel_grid.h"
-#include "core/reconstruction/silhouette/silhouette.h"
-
 namespace mocap {
-
-Silhouette SilhouetteOfMask(ImageView<const std::uint8_t> mask);
-std::int64_t CountVoxels(const VoxelGrid& grid);
 
 /// Returns the share of a hull that one more camera carves, 0 to 1: mean over the cameras of a
 /// simulated studio, each left out once, from true masks of three people who walk.

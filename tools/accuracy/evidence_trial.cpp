@@ -16,7 +16,6 @@
 #include "core/reconstruction/silhouette/segmenter.h"
 #include "daemon/pipeline/pose_sink.h"
 #include "tools/accuracy/accuracy_trial.h"
-#include "tools/accuracy/carving_trial.h"
 
 namespace mocap {
 namespace {
@@ -47,7 +46,7 @@ class SightKeeper : public CameraDriver {
         segmenter_.Segment(frame.image, frame.angles, sight_.trimaps.emplace_back());
         sight_.shadings.push_back(segmenter_.shading());
       }
-      sight_.masks.push_back(SilhouetteOfMask(simulated->TrueMask()));
+      sight_.masks.push_back(simulated->TrueSilhouette());
     }
     return status;
   }
@@ -63,7 +62,7 @@ class VolumeKeeper : public PoseSink {
  public:
   void OnSet(const TrackedSet& set) override {
     frames.push_back(static_cast<std::size_t>(set.frame));
-    voxels += CountVoxels(set.grid);
+    voxels += set.grid.Count();
     if (frames.back() % kFramesPerTrimap == 0) hulls[frames.back()] = set.grid;
   }
 
@@ -85,7 +84,7 @@ std::int64_t TrueVoxels(const std::vector<CameraCalibration>& cameras,
     for (std::size_t c = 0; c < cameras.size(); ++c)
       views.push_back({&tables[c], &sights[c].masks.at(frame), cameras[c].X_CW});
     carver.Carve(views, grid);
-    voxels += CountVoxels(grid);
+    voxels += grid.Count();
   }
   return voxels;
 }

@@ -115,8 +115,7 @@ ResidualNoise Fit(std::span<const NoiseTake> takes, ResidualKind kind, std::size
 }
 
 double MeanNats(std::span<const NoiseTake> takes, ResidualKind kind, std::size_t first,
-                ResidualNoise noise) {
-  noise.independent_share = 1;
+                const ResidualNoise& noise) {
   double sum = 0, count = 0;
   ForEachResidual(takes, kind, first, [&](double r) {
     sum += noise.Nats(r);

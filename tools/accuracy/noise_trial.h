@@ -7,9 +7,9 @@
 #include <string_view>
 #include <vector>
 
-#include "core/objective/residual_noise.h"
 #include "core/tracking/surface_fit.h"
 #include "tools/accuracy/accuracy_trial.h"
+#include "tools/accuracy/residual_noise.h"
 
 namespace mocap {
 

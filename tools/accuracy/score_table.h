@@ -29,7 +29,7 @@ struct ScoreRow {
 std::vector<ScoreRow> RowsOf(const std::string& part, const std::string& group,
                              const std::string& person, const PersonScore& score);
 
-/// Beginnings of files that may be overwritten.
+/// First line of the table: a file that begins so may be overwritten.
 extern const std::string kScoreHeader;
 
 /// A table with a header and a line for each row.

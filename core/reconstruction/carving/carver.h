@@ -27,8 +27,8 @@ struct CarvingOptions {
 /// that cannot see a sample does not carve it. At least two cameras, and half of those in the set,
 /// must see it. A camera with an empty silhouette counts as one that cannot see the person. Mikić
 /// et al. 2003, §4. Beyond the paper, an unknown pixel does not carve either, as long as no fewer
-/// cameras show the person there than do not know, and cameras that call it empty may be outweighed:
-/// as many more must show the person. Thread-bound; reuses its memory.
+/// cameras show the person there than do not know, and cameras that call it empty may be
+/// outweighed: as many more must show the person. Thread-bound; reuses its memory.
 class Carver {
  public:
   static constexpr int kMostViews = 64;

@@ -34,7 +34,7 @@ struct CameraEye {
   }
 };
 
-/// More cameras than there are in a set.
+/// More than there are other cameras in a set.
 inline constexpr int kNeverOutweighed = 64;
 
 /// What one camera sees, and its pose at that moment. Borrowed for the call.

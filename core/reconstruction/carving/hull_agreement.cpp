@@ -16,14 +16,6 @@ constexpr double kLeastOverlap = 0.5;
 /// Averaged over directions, a cube's outline has 1.5 times the area of its face.
 const double kHalfOutline = std::sqrt(1.5) / 2;
 
-bool IsOnSurface(const VoxelGrid& grid, int i, int j, int k) {
-  const auto occupied = [&](int x, int y, int z) {
-    return grid.Contains(x, y, z) && grid.Test(x, y, z);
-  };
-  return !(occupied(i - 1, j, k) && occupied(i + 1, j, k) && occupied(i, j - 1, k) &&
-           occupied(i, j + 1, k) && occupied(i, j, k - 1) && occupied(i, j, k + 1));
-}
-
 template <typename Visit>
 void ForEachVoxel(const VoxelGrid& grid, Visit visit) {
   for (int k = 0; k < grid.size().z(); ++k) {
@@ -52,7 +44,7 @@ void PaintSquare(const SensorPlaneTable::Place& center, double half_px, Silhouet
 void PaintHull(const VoxelGrid& hull, const CarvingView& view, Silhouette& painted) {
   painted.Reset(view.silhouette->width(), view.silhouette->height());
   ForEachVoxel(hull, [&](int i, int j, int k) {
-    if (!IsOnSurface(hull, i, j, k)) return;
+    if (hull.IsEnclosed(i, j, k)) return;
     const Vector3 p_C = view.X_CW * hull.CenterOf(i, j, k);
     if (p_C.z() <= 0) return;
     const auto u = static_cast<float>(p_C.x() / p_C.z());

@@ -1,7 +1,7 @@
 #include "core/reconstruction/carving/miss_rates.h"
 
 #include <algorithm>
-#include <cmath>
+#include <cstdlib>
 #include <numeric>
 
 namespace mocap {
@@ -14,8 +14,8 @@ constexpr std::size_t kMoments = 4;
 constexpr int kFewestToOutweigh = 3;
 // So many outweigh one in the hull that is looked at: up to one in five may miss the same cell.
 constexpr int kOutweighing = 4;
-// Where no ray of people crosses, each cell is called empty by some camera. A person has a share
-// that none misses, even if he is dressed like the wall.
+// Where nobody is, each cell is called empty by some camera. Of a person, at least this share is
+// missed by none, even if he is dressed like the wall.
 constexpr double kLeastHeld = 0.1;
 
 // Whether a view calls a point empty; nothing if it does not see it.
@@ -36,9 +36,11 @@ MissRates::MissRates(std::size_t cameras, bool several_people)
 
 void MissRates::Weigh(std::span<CarvingView> views, std::uint64_t cameras,
                       std::int64_t capture_ns) {
-  if (capture_ns >= next_ns_ && static_cast<int>(views.size()) > kFewestToOutweigh) {
+  // The clock may be set back.
+  const bool is_due = !last_ns_ || std::abs(capture_ns - *last_ns_) >= kPeriod_ns;
+  if (is_due && static_cast<int>(views.size()) > kFewestToOutweigh) {
     Look(views, cameras);
-    next_ns_ = capture_ns + kPeriod_ns;
+    last_ns_ = capture_ns;
   }
   auto view = views.begin();
   for (std::size_t camera = 0; camera < moments_.size(); ++camera) {
@@ -60,7 +62,8 @@ void MissRates::Look(std::span<const CarvingView> views, std::uint64_t cameras) 
   pieces_missed_.assign(pieces_.sizes().size(), {});
   for (const VoxelPieces::Run& run : pieces_.runs()) {
     for (int i = run.begin; i < run.end; ++i) {
-      if (IsWithin(i, run.j, run.k)) CountCell(run, i, views);
+      // At the hull's surface, good silhouettes differ too.
+      if (hull_.IsEnclosed(i, run.j, run.k)) CountCell(run, i, views);
     }
   }
   std::size_t view = 0;
@@ -95,15 +98,6 @@ void MissRates::CountCell(const VoxelPieces::Run& run, int i, std::span<const Ca
   }
   ++pieces_missed_[piece].shown;
   pieces_missed_[piece].missed += is_missed;
-}
-
-// At the hull's surface, good silhouettes differ too.
-bool MissRates::IsWithin(int i, int j, int k) const {
-  const auto is_in = [this](int x, int y, int z) {
-    return hull_.Contains(x, y, z) && hull_.Test(x, y, z);
-  };
-  return is_in(i - 1, j, k) && is_in(i + 1, j, k) && is_in(i, j - 1, k) && is_in(i, j + 1, k) &&
-         is_in(i, j, k - 1) && is_in(i, j, k + 1);
 }
 
 std::optional<double> MissRates::Of(int camera) const {

@@ -3,7 +3,6 @@
 
 #include <cstdint>
 #include <deque>
-#include <limits>
 #include <optional>
 #include <span>
 #include <vector>
@@ -29,8 +28,8 @@ class MissRates {
   /// @param cameras  bit i: camera i is in the set. The views are those, in this order.
   void Weigh(std::span<CarvingView> views, std::uint64_t cameras, std::int64_t capture_ns);
 
-  /// Share of the people that a camera missed, 0 to 1: mean of the latest moments. Empty before,
-  /// and if fewer than three others see them.
+  /// Share of the people that a camera missed, beyond what one more camera rightly carves, 0 to 1:
+  /// mean of the latest moments. Empty before, and if fewer than three others see them.
   std::optional<double> Of(int camera) const;
 
  private:
@@ -40,7 +39,6 @@ class MissRates {
 
   void Look(std::span<const CarvingView> views, std::uint64_t cameras);
   void CountCell(const VoxelPieces::Run& run, int i, std::span<const CarvingView> views);
-  bool IsWithin(int i, int j, int k) const;
   int OutweighedBy(int camera) const;
 
   Carver carver_;
@@ -51,7 +49,7 @@ class MissRates {
   std::vector<Count> pieces_missed_;         // By piece: cells that any view misses.
   std::vector<std::vector<Count>> counts_;   // By piece and view.
   std::vector<std::deque<double>> moments_;  // The latest shares of each camera.
-  std::int64_t next_ns_ = std::numeric_limits<std::int64_t>::min();
+  std::optional<std::int64_t> last_ns_;      // When people were looked at.
 };
 
 /// Sets by how many others each view of a single set is outweighed.

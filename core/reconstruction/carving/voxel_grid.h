@@ -53,6 +53,12 @@ class VoxelGrid {
     return i >= 0 && j >= 0 && k >= 0 && i < size_.x() && j < size_.y() && k < size_.z();
   }
   bool Test(int i, int j, int k) const { return row(j, k)[i >> 6] >> (i & 63) & 1; }
+  /// Whether a voxel and its six neighbours are set. @pre  the grid contains it.
+  bool IsEnclosed(int i, int j, int k) const {
+    const auto is_set = [this](int x, int y, int z) { return Contains(x, y, z) && Test(x, y, z); };
+    return Test(i, j, k) && is_set(i - 1, j, k) && is_set(i + 1, j, k) && is_set(i, j - 1, k) &&
+           is_set(i, j + 1, k) && is_set(i, j, k - 1) && is_set(i, j, k + 1);
+  }
   void Set(int i, int j, int k) { row(j, k)[i >> 6] |= std::uint64_t{1} << (i & 63); }
   void Clear(int i, int j, int k) { row(j, k)[i >> 6] &= ~(std::uint64_t{1} << (i & 63)); }
   int words_per_row() const { return words_per_row_; }
@@ -63,6 +69,12 @@ class VoxelGrid {
     return words_.data() + (static_cast<std::size_t>(k) * size_.y() + j) * words_per_row_;
   }
   const std::vector<std::uint64_t>& words() const { return words_; }
+  /// Number of voxels that are set.
+  std::int64_t Count() const {
+    std::int64_t count = 0;
+    for (const std::uint64_t word : words_) count += std::popcount(word);
+    return count;
+  }
 
  private:
   Eigen::Vector3i first_ = Eigen::Vector3i::Zero();

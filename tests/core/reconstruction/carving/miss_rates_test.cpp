@@ -82,6 +82,18 @@ TEST(MissRates, LookOnceASecondAndForgetAfterFour) {
   EXPECT_EQ(weigh(6 * kSecond_ns), kNeverOutweighed);
 }
 
+TEST(MissRates, LookAgainWhenTheClockIsSetBack) {
+  SyntheticStudio studio(8);
+  studio.Show(StandingPerson(0, 0));
+  MissRates rates(8, false);
+  std::vector<CarvingView> views = studio.Views();
+  rates.Weigh(views, First(8), 3600 * kSecond_ns);
+  EraseLegs(studio.silhouettes[2]);
+  views = studio.Views();
+  rates.Weigh(views, First(8), 0);
+  EXPECT_LT(views[2].outweighed_by, 7);
+}
+
 TEST(MissRates, NobodyOnTheStageChangesNothing) {
   SyntheticStudio studio(8);
   studio.Show(StandingPerson(0, 0));

@@ -1,4 +1,4 @@
-#include "core/objective/residual_noise.h"
+#include "tools/accuracy/residual_noise.h"
 
 #include <gtest/gtest.h>
 
