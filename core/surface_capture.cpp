@@ -7,13 +7,12 @@
 #include <optional>
 #include <utility>
 
-#include "core/acquisition/facing_watch.h"
-#include "core/acquisition/model_acquirer.h"
-#include "core/acquisition/size_refiner.h"
 #include "core/counted_time.h"
-#include "core/tracking/evidence.h"
-#include "core/tracking/steady_pose.h"
-#include "core/tracking/tracker.h"
+#include "core/evidence/evidence.h"
+#include "core/hypotheses/hypothesis_set.h"
+#include "core/hypotheses/steady_pose.h"
+#include "core/proposals/scheduler.h"
+#include "core/proposals/stance_search.h"
 
 namespace mocap {
 namespace {
@@ -21,24 +20,15 @@ namespace {
 // A child of 1.1 m has about 18 litres of flesh. Less is a stray shadow, or somebody at the edge of
 // the room.
 constexpr double kLeastLitres = 12;
-// Higher than the limit for a first fit: errors of cameras should not end tracking.
-constexpr double kLostCostMm = 55;
-// If a fit is worse than this for some frames, it is compared with a new search,
-constexpr double kDoubtCostMm = 28;
-// which must be better by this share of its cost.
-constexpr double kClearGain = 0.15;
 constexpr int kFramesToLose = 3;
-// After each search without a better result, the wait doubles, up to this number of frames.
-constexpr int kLongestDoubt = 48;
 constexpr double kForgetAfterS = 1.0;
-// The first search is a full one. Later ones, also for doubtful poses, are limited to about the
-// available time.
-constexpr double kSearchesPerS = 9;
-constexpr double kLeastEffort = 0.1;
 // Sizes settle after this many well-fitted frames.
 constexpr int kFramesToRefine = 90;
-
-double EffortWithin(double dt_s) { return std::clamp(kSearchesPerS * dt_s, kLeastEffort, 1.0); }
+// Odds of 1000 to 1 make somebody a stranger where one person is expected: sizes that are measured in
+// the same frame fit better than known ones.
+constexpr double kStrangerNats = 6.9;
+constexpr double kSettledMm = 3;  // §8.1
+constexpr int kFramesToSettle = 6;
 
 // Computes the covariance of a point of the body from that of the joints that move it.
 Matrix3 CovarianceOf(const BodyModel& body, const Posture& posture, Point point,
@@ -64,7 +54,7 @@ Matrix3 CovarianceOf(const BodyModel& body, const Posture& posture, Point point,
 
 class SurfaceCapture::Impl {
  public:
-  explicit Impl(const BodyTable& table) : acquirer_(table), nobody_(table, AverageSizes(1750)) {}
+  explicit Impl(const BodyTable& table) : scheduler_(table), nobody_(table, AverageSizes(1750)) {}
 
   const CaptureResult& Update(const Sighting& sighting, std::int64_t capture_ns,
                               UpdateObserver* observer) {
@@ -79,6 +69,8 @@ class SurfaceCapture::Impl {
     if (evidence_.cloud.volume_litres() < kLeastLitres) {
       NobodyThere(dt_s);
     } else {
+      heading_ = heading_watch_.Look(evidence_.cloud, dt_s);
+      objective_.SetEvidence(evidence_, heading_);
       SomebodyThere(dt_s);
     }
     Report(dt_s);
@@ -94,11 +86,11 @@ class SurfaceCapture::Impl {
   const CaptureResult& result() const { return result_; }
   PoseState PredictedPose(std::int64_t capture_ns) const {
     // If a person was lost before the sizes were known, only the last pose is left.
-    if (!tracker_) return result_.pose;
+    if (hypotheses_.empty()) return result_.pose;
     const std::int64_t ahead_ns = std::max<std::int64_t>(0, capture_ns - last_ns_.value());
-    return tracker_->filter().PredictedPose(static_cast<double>(ahead_ns) * 1e-9);
+    return hypotheses_.best().filter.PredictedPose(static_cast<double>(ahead_ns) * 1e-9);
   }
-  const BodyModel& body() const { return tracker_ ? tracker_->body() : nobody_; }
+  const BodyModel& body() const { return hypotheses_.empty() ? nobody_ : hypotheses_.best().body; }
   int acquisition_frames() const { return acquisition_frames_; }
 
  private:
@@ -124,163 +116,108 @@ class SurfaceCapture::Impl {
 
   void GiveUp() {
     result_.state = CaptureState::kSearching;
-    ForgetPerson();
-  }
-
-  void ForgetPerson() {
-    tracker_.reset();
-    opposite_.reset();
+    hypotheses_.Clear();
+    scheduler_.StartOver();
+    heading_watch_.StartOver();
     known_ = given_;
-    refiner_.reset();
-    acquirer_.StartOver();
     looks_anew_ = true;
   }
 
   void SomebodyThere(double dt_s) {
     switch (result_.state) {
       case CaptureState::kSearching:
-        Acquire(dt_s);
+        Search(dt_s);
         break;
       case CaptureState::kLost:
-        Acquire(dt_s);
+        Search(dt_s);
         if (result_.state == CaptureState::kLost) Await(dt_s);
         break;
       case CaptureState::kAcquiring:
-        ++frames_acquiring_;
-        acquirer_.Refine(evidence_, dt_s);
-        TakeAcquired();
-        break;
       case CaptureState::kTracking:
-        tracker_->Update(evidence_, dt_s);
-        RefineSizes(*tracker_, *refiner_);
-        facing_.Look(evidence_.cloud, tracker_->filter().pose(), dt_s);
-        if (opposite_) {
-          CompareFacings(dt_s);
-        } else {
-          LookAgainInDoubt(dt_s);
-        }
-        NoteSizes();
-        NoticeLoss();
+        Follow(dt_s);
         break;
     }
   }
 
-  void Acquire(double dt_s) {
+  Scheduler::Frame Frame() { return {objective_, evidence_, heading_}; }
+
+  void Search(double dt_s) {
     const double effort = std::exchange(looks_anew_, false) ? 1 : EffortWithin(dt_s);
-    if (!acquirer_.Locate(evidence_, known_, {effort})) return;
-    if (known_ && acquirer_.IsStranger(evidence_, effort)) return;
+    std::vector<Hypothesis> found = scheduler_.FindAnybody(Frame(), known_, {effort});
+    if (found.empty()) return;
+    hypotheses_.Begin(std::move(found));
+    const Hypothesis& best = hypotheses_.best();
+    if (!best.fitness.IsCredible() || (known_ && IsStranger(effort))) return;
     looks_anew_ = true;
     frames_acquiring_ = 1;
-    result_.state = CaptureState::kAcquiring;
-    TakeAcquired();
-  }
-
-  void TakeAcquired() {
-    tracker_ = acquirer_.best();
-    facing_.StartOver();
+    result_.state = known_ ? CaptureState::kTracking : CaptureState::kAcquiring;
     result_.body_changed = true;
-    if (!acquirer_.settled()) return;
-    result_.state = CaptureState::kTracking;
-    opposite_.reset();
-    if (!known_) {
-      acquisition_frames_ = frames_acquiring_;
-      duel_ = acquirer_.duel();
-      if (const BodyHypothesis* opposite = acquirer_.opposite()) opposite_ = *opposite;
-    }
-    known_ = tracker_->body().sizes();
-    if (!refiner_) refiner_ = acquirer_.sizes();
     bad_frames_ = 0;
   }
 
-  void RefineSizes(Tracker& tracker, SizeRefiner& refiner) const {
-    if (given_ || refiner.frames() >= kFramesToRefine) return;
-    if (tracker.quality().Cost() > kDoubtCostMm) return;
-    refiner.Add(tracker.body(), tracker.surface_fit(), tracker.filter().pose());
-    tracker.Resize(refiner.Sizes());
+  // Whether a body of other sizes explains the evidence clearly better than the known one.
+  bool IsStranger(double effort) {
+    const std::vector<Hypothesis> strangers =
+        scheduler_.FindAnybody(Frame(), std::nullopt, {effort});
+    if (strangers.empty()) return false;
+    const double lead = hypotheses_.best().fitness.Sum() - strangers.front().fitness.Sum();
+    return hypotheses_.frame_worth() * lead > kStrangerNats;
   }
 
-  void NoteSizes() {
-    if (*known_ == tracker_->body().sizes()) return;
-    known_ = tracker_->body().sizes();
-    result_.body_changed = true;
-  }
-
-  // Follows the body that faces the opposite way, and goes over to it while it costs less.
-  void CompareFacings(double dt_s) {
-    Tracker& other = opposite_->tracker;
-    other.Update(evidence_, dt_s);
-    RefineSizes(other, opposite_->sizes);
-    duel_.Add(CostMm(other) - CostMm(*tracker_), dt_s);
-    if (duel_.second_leads()) {
-      std::swap(*tracker_, other);
-      std::swap(*refiner_, opposite_->sizes);
-      duel_.Swap();
+  void Follow(double dt_s) {
+    const BodySizes before = body().sizes();
+    hypotheses_.Follow(objective_, evidence_.cloud, dt_s);
+    scheduler_.Try(Frame(), hypotheses_, SizesAreKnown(), dt_s);
+    RefineSizes();
+    if (result_.state == CaptureState::kAcquiring) {
+      ++frames_acquiring_;
+      // The lengths of somebody who crouches stay uncertain: tracking refines them later.
+      const double change_mm = std::abs(body().sizes().Stature() - before.Stature());
+      if (change_mm < kSettledMm || frames_acquiring_ >= kFramesToSettle) {
+        result_.state = CaptureState::kTracking;
+        acquisition_frames_ = frames_acquiring_;
+      }
     }
-    if (duel_.is_over()) opposite_.reset();
-  }
-
-  double PriorCostMm(const Tracker& tracker) const {
-    return facing_.prior().CostMm(tracker.body(), tracker.filter().pose());
-  }
-
-  double CostMm(const Tracker& tracker) const {
-    return tracker.quality().Cost() + PriorCostMm(tracker);
-  }
-
-  // Sizes from few frames may be the cause of a bad fit.
-  bool SizesAreKnown() const { return given_ || refiner_->frames() >= kFramesToRefine; }
-
-  // Neither unknown sizes nor the person's heading are taken for granted.
-  void LookAgainInDoubt(double dt_s) {
-    if (tracker_->quality().Cost() <= kDoubtCostMm && !facing_.is_backwards()) {
-      doubtful_frames_ = 0;
-      patience_ = kFramesToLose;
-      return;
+    if (result_.state == CaptureState::kTracking) {
+      known_ = body().sizes();
+      NoticeLoss();
     }
-    if (++doubtful_frames_ < patience_) return;
-    doubtful_frames_ = 0;
-    patience_ = std::min(2 * patience_, kLongestDoubt);
-    const bool sizes_are_known = SizesAreKnown();
-    const std::optional<BodySizes> sizes = sizes_are_known ? known_ : std::nullopt;
-    const bool is_backwards = facing_.is_backwards();
-    const std::optional<Vector3> walks_W = is_backwards ? facing_.walks_W() : std::nullopt;
-    const SearchScope scope{EffortWithin(dt_s), tracker_->things()};
-    if (!acquirer_.Locate(evidence_, sizes, scope, walks_W)) return;
-    const Tracker& found = acquirer_.best();
-    const bool same_way =
-        found.filter().pose().X_WT.R.col(0).dot(tracker_->filter().pose().X_WT.R.col(0)) > 0;
-    const bool may_turn = is_backwards && !same_way;
-    if (sizes_are_known && !same_way && !may_turn) return;
-    const double cost_mm = tracker_->quality().Cost();
-    // Being less strained does not make up for a worse fit: arms overhead are strained.
-    if (!may_turn && found.quality().Cost() >= cost_mm) return;
-    const double wanted_mm = may_turn ? 0 : kClearGain * cost_mm;
-    if (CostMm(found) > CostMm(*tracker_) - wanted_mm) return;
-    tracker_ = found;
-    facing_.StartOver();
-    patience_ = kFramesToLose;
-    if (sizes_are_known) return;
-    known_ = found.body().sizes();
-    refiner_ = acquirer_.sizes();
-    result_.body_changed = true;
+    if (!hypotheses_.empty() && !(body().sizes() == before)) result_.body_changed = true;
+  }
+
+  void RefineSizes() {
+    for (Hypothesis& hypothesis : hypotheses_.all()) {
+      if (given_ || !hypothesis.sizes || hypothesis.sizes->frames() >= kFramesToRefine) continue;
+      if (hypothesis.fitness.IsCredible()) hypothesis.RefineSizes(objective_);
+    }
+  }
+
+  bool SizesAreKnown() const {
+    const auto& sizes = hypotheses_.best().sizes;
+    return given_ || !sizes || sizes->frames() >= kFramesToRefine;
   }
 
   void NoticeLoss() {
-    bad_frames_ = tracker_->quality().CostWithoutStray() > kLostCostMm ? bad_frames_ + 1 : 0;
-    if (bad_frames_ < kFramesToLose && tracker_->filter().is_sound()) return;
+    const Hypothesis& best = hypotheses_.best();
+    bad_frames_ = best.fitness.IsLost() ? bad_frames_ + 1 : 0;
+    if (bad_frames_ < kFramesToLose && best.filter.is_sound()) return;
     Lose();
-    if (!SizesAreKnown()) ForgetPerson();
+    // Sizes from few frames may be the cause of a bad fit.
+    if (!SizesAreKnown()) {
+      hypotheses_.Clear();
+      known_ = given_;
+    }
   }
 
   void Report(double dt_s) {
-    if (!tracker_) return;
-    const BodyModel& body = tracker_->body();
-    const PoseFilter& filter = tracker_->filter();
+    if (hypotheses_.empty() || result_.state == CaptureState::kSearching) return;
+    const BodyModel& body = hypotheses_.best().body;
+    const PoseFilter& filter = hypotheses_.best().filter;
     MeasureUncertainty(body, filter);
     if (result_.state != CaptureState::kTracking) steady_.Reset();
     result_.pose = steady_.Follow(body, filter, result_.point_std_mm, dt_s);
     result_.points_W = body.PointsAt(body.PostureAt(result_.pose));
-    result_.residual_mm = tracker_->quality().surface_mm;
+    result_.residual_mm = hypotheses_.best().fitness.surface_mm;
   }
 
   void MeasureUncertainty(const BodyModel& body, const PoseFilter& filter) {
@@ -291,21 +228,20 @@ class SurfaceCapture::Impl {
           CovarianceOf(body, posture, static_cast<Point>(i), points_W.col(i), filter.covariance());
       Eigen::SelfAdjointEigenSolver<Matrix3> axes;
       axes.computeDirect(covariance, Eigen::EigenvaluesOnly);
-      result_.point_std_mm[i] = std::sqrt(std::max(0.0, axes.eigenvalues().maxCoeff()));
+      result_.point_std_mm[i] = std::sqrt(std::max(0.0, axes.eigenvalues().maxCoeff()) / kFrameWorth);
     }
   }
 
-  ModelAcquirer acquirer_;
-  FacingWatch facing_;
+  Scheduler scheduler_;
   BodyModel nobody_;
   Evidence evidence_;
-  std::optional<Tracker> tracker_;
+  HeadingWatch heading_watch_;
+  Heading heading_;
+  Objective objective_;
+  HypothesisSet hypotheses_;
   SteadyPose steady_;
   std::optional<BodySizes> known_;
   std::optional<BodySizes> given_;  ///< Known before the person was seen.
-  std::optional<SizeRefiner> refiner_;
-  std::optional<BodyHypothesis> opposite_;  ///< Faces the opposite way, and may be right.
-  FacingDuel duel_;                         ///< Of the tracker with that.
   std::optional<std::int64_t> last_ns_;
   CaptureResult result_;
   double lost_s_ = 0;       ///< Time since the person was lost.
@@ -313,8 +249,6 @@ class SurfaceCapture::Impl {
   int frames_acquiring_ = 0;
   int acquisition_frames_ = 0;
   int bad_frames_ = 0;
-  int doubtful_frames_ = 0;
-  int patience_ = kFramesToLose;  ///< Doubtful frames before the next search.
 };
 
 SurfaceCapture::SurfaceCapture(const BodyTable& table) : impl_(std::make_unique<Impl>(table)) {}

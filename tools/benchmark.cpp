@@ -214,7 +214,8 @@ void AddBenchmarkCommand(CLI::App& app) {
           "and loads), takes (recorded ones), studio (number, place and pictures of the "
           "cameras), paper (its tracker, with truth in place of stages), evidence (clothes "
           "like the wall, and lossy pictures, of 4 to 16 cameras) and noise (of the "
-          "evidence, at true poses of varied people) run only on request")
+          "evidence, at true poses of varied people, and the odds of right and wrong poses) "
+          "run only on request")
       ->delimiter(',')
       ->check(OneOf(parts))
       ->capture_default_str();

@@ -9,6 +9,7 @@
 
 #include "core/counted_time.h"
 #include "core/errors.h"
+#include "core/evidence/evidence.h"
 #include "core/people/believed_flesh.h"
 #include "core/people/flesh_division.h"
 #include "core/people/member.h"
@@ -17,7 +18,6 @@
 #include "core/people/set_rhythm.h"
 #include "core/people/witnesses.h"
 #include "core/reconstruction/carving/voxel_block.h"
-#include "core/tracking/flesh_rules.h"
 
 namespace mocap {
 namespace {

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "core/tracking/flesh_rules.h"
+#include "core/evidence/evidence.h"
 
 namespace mocap {
 

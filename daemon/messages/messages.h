@@ -11,7 +11,7 @@
 #include <mocap/voxels_t.hpp>
 #include <span>
 
-#include "core/tracking/voxel_labels.h"
+#include "daemon/messages/voxel_labels.h"
 #include "daemon/pipeline/pose_sink.h"
 #include "daemon/status/service_report.h"
 #include "daemon/status/status_window.h"

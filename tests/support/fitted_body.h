@@ -1,14 +1,11 @@
-// A body, what cameras see of it, and the fit and the recovery of limbs to that.
+// A body, what cameras see of it, and the objective of that.
 #pragma once
 
 #include <gtest/gtest.h>
 
-#include <optional>
-
 #include "config/load_config.h"
 #include "core/body/stance.h"
-#include "core/tracking/limb_recovery.h"
-#include "core/tracking/surface_fit.h"
+#include "core/hypotheses/hypothesis.h"
 #include "tests/support/seen_body.h"
 
 namespace mocap {
@@ -25,26 +22,39 @@ class FittedBody : public ::testing::Test {
     pose.theta = AnglesOf(stance, body.table());
     return pose;
   }
-  PoseState FitFrom(const PoseState& start, const BodyModel& body, SurfaceFit& fit) const {
+  PoseState Standing(const Stance& stance) const { return Standing(body_, stance); }
+  /// Like a pose, but some centimetres and degrees off.
+  static PoseState Off(PoseState pose, double share = 1) {
+    PoseStep step = PoseStep::Constant(pose.dof(), 0.05 * share);
+    step.head<3>() = share * Vector3(40, -30, 25);
+    pose.Add(step);
+    return pose;
+  }
+
+  /// Sets the evidence of a frame.
+  void See(const BodyModel& body, const PoseState& truth) { See(studio_.Show(body, truth)); }
+  void See(const PoseState& truth) { See(body_, truth); }
+  void See(Evidence evidence) {
+    evidence_ = std::move(evidence);
+    objective_.SetEvidence(evidence_, heading_);
+  }
+
+  Fitness At(const PoseState& pose) { return objective_.At(body_, pose, {}); }
+  /// Draws the body near the evidence, from a start that may be far off.
+  PoseState FitFrom(const PoseState& start, const BodyModel& body) {
     PoseFilter filter{MotionNoise{}};
     filter.Reset(start, 100, 0.5);
-    filter.Update(body.table(),
-                  [&](const PoseState& pose, UpdateEquations& equations) {
-                    fit.Linearize(body, pose, equations);
-                  },
-                  {12, 12});
+    DrawNear(objective_, body, {}, {12, 12}, filter);
     return filter.pose();
   }
-  PoseState FitFromStance(const Evidence& evidence, const Stance& stance) {
-    fit_.SetEvidence(evidence);
-    return FitFrom(Standing(body_, stance), body_, fit_);
+  PoseState FitFrom(const PoseState& start) { return FitFrom(start, body_); }
+  /// The body as a hypothesis that was fitted to the evidence.
+  Hypothesis HypothesisAt(const PoseState& pose) {
+    Hypothesis hypothesis(body_, pose, false);
+    hypothesis.Fit(objective_);
+    return hypothesis;
   }
-  /// @param dt_s  since the last search; by default all is searched at once.
-  std::optional<PoseState> Recover(const Evidence& evidence, const PoseState& pose,
-                                   double dt_s = 0.1) {
-    fit_.SetEvidence(evidence);
-    return recovery_.Recover(body_, evidence, fit_, pose, fit_.QualityAt(body_, pose), dt_s);
-  }
+
   Eigen::VectorXd Errors(const PoseState& pose, const PoseState& truth) const {
     return (body_.PointsAt(body_.PostureAt(pose)) - body_.PointsAt(body_.PostureAt(truth)))
         .colwise()
@@ -56,8 +66,9 @@ class FittedBody : public ::testing::Test {
 
   RoundStudio studio_;
   BodyModel body_{LoadBodyTable("full"), AverageSizes(1750)};
-  SurfaceFit fit_{SurfaceFitOptions{}};
-  LimbRecovery recovery_{body_.table()};
+  Evidence evidence_;
+  Heading heading_;
+  Objective objective_;
 };
 
 }  // namespace mocap

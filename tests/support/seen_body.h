@@ -6,9 +6,9 @@
 #include <vector>
 
 #include "core/body/body_model.h"
+#include "core/evidence/evidence.h"
 #include "core/reconstruction/carving/carver.h"
 #include "core/reconstruction/silhouette/outline.h"
-#include "core/tracking/evidence.h"
 
 namespace mocap {
 

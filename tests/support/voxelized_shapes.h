@@ -3,7 +3,7 @@
 
 #include <functional>
 
-#include "core/tracking/voxel_cloud.h"
+#include "core/evidence/voxel_cloud.h"
 
 namespace mocap {
 

@@ -4,9 +4,9 @@
 #include <optional>
 
 #include "core/body/body_model.h"
+#include "core/evidence/voxel_cloud.h"
 #include "core/mikic2003/orientation.h"
 #include "core/reconstruction/carving/voxel_grid.h"
-#include "core/tracking/voxel_cloud.h"
 #include "tools/accuracy/true_subject.h"
 
 namespace mocap {

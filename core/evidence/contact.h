@@ -1,0 +1,28 @@
+// Contacts: points and rays that the body's surface should touch.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "core/body/body_shape.h"
+#include "core/evidence/evidence.h"
+
+namespace mocap {
+
+/// A point on the voxels' surface (from_W = to_W), or a bounding edge.
+struct Contact {
+  Vector3 from_W;
+  Vector3 to_W;
+  Vector3 outward_W;  ///< The surface's normal there.
+  bool is_edge;
+  bool misses_hull = false;  ///< An edge of something that was carved away.
+};
+
+/// Selects contacts, spread evenly over a frame's surface voxels and bounding edges. Where nothing
+/// moves, the choice stays: otherwise a still body would tremble. Voxels come first. Reuses the
+/// memory of `contacts`.
+/// @param voxels, edges  limits for their numbers.
+void ChooseContacts(const Evidence& evidence, int voxels, int edges,
+                    std::vector<Contact>& contacts);
+
+}  // namespace mocap

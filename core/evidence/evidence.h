@@ -1,0 +1,47 @@
+// The evidence of one frame set: voxels and outlines of the person.
+#pragma once
+
+#include <algorithm>
+#include <span>
+#include <vector>
+
+#include "core/evidence/bounding_edges.h"
+#include "core/evidence/voxel_cloud.h"
+#include "core/motion_capture.h"
+
+namespace mocap {
+
+/// Whether flesh begins higher above the floor than the shins, so that the legs were carved away or
+/// are in the air.
+/// @param lowest_mm  height at which it begins.
+inline bool LacksLegs(double lowest_mm) {
+  constexpr double kShinMm = 250;
+  return lowest_mm > kShinMm;
+}
+
+/// The person as voxels and bounding edges, and the silhouette borders that flesh does not cross.
+/// Reuses its memory.
+struct Evidence {
+  VoxelCloud cloud;
+  std::vector<Outline> borders;  ///< One per camera; empty for cameras that are missing.
+  std::vector<BoundingEdge> edges;
+  BoundingEdgeFinder edge_finder;
+
+  bool is_alone = true;  ///< Nobody else was near.
+
+  void Gather(const Sighting& sighting) {
+    is_alone = &sighting.flesh == &sighting.room;
+    cloud.Build(sighting.flesh, sighting.room);
+    borders.assign(sighting.borders.begin(), sighting.borders.end());
+    edge_finder.Find(cloud, sighting.outlines, sighting.box_W, edges);
+  }
+
+  /// Share of the edges that miss the hull: holes and stray blobs of silhouettes.
+  double MissingShare() const {
+    const auto missing = std::ranges::count_if(edges, &BoundingEdge::misses_hull);
+    return static_cast<double>(missing) /
+           static_cast<double>(std::max<std::size_t>(1, edges.size()));
+  }
+};
+
+}  // namespace mocap

@@ -1,0 +1,132 @@
+#include "core/hypotheses/hypothesis_set.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace mocap {
+namespace {
+
+// Residuals of frames that are closer in time err alike (`mocap benchmark --parts noise`).
+constexpr double kAlike_s = 0.1;
+constexpr std::size_t kMost = 4;
+// Odds of 19 to 1 change the mind; of 1 to 1000 end a hypothesis.
+const double kChangeNats = std::log(19);
+const double kDropNats = std::log(1000);
+// A pose that is worse by this than the believed one before it is fitted is not fitted: of 600
+// fits, none gained as much.
+constexpr double kHopelessNats = 70;
+// Poses whose points have a smaller mean distance than this are equal.
+constexpr double kSame_mm = 30;
+
+bool AreSame(const Hypothesis& a, const Hypothesis& b) {
+  return MeanDistance(a.body, a.filter.pose(), b.body, b.filter.pose()) < kSame_mm;
+}
+
+// Moves the body with the voxels if they moved farther than predicted and that explains them
+// better.
+void FollowLeap(Objective& objective, const Vector3& unforeseen_W, Hypothesis& hypothesis) {
+  PoseState leapt = hypothesis.filter.pose();
+  leapt.X_WT.p += unforeseen_W;
+  const auto nats = [&](const PoseState& pose) {
+    return objective.At(hypothesis.body, pose, hypothesis.things).Sum();
+  };
+  if (nats(leapt) < nats(hypothesis.filter.pose())) hypothesis.filter.Shift(unforeseen_W);
+}
+
+}  // namespace
+
+void HypothesisSet::Begin(std::vector<Hypothesis> hypotheses) {
+  hypotheses_ = std::move(hypotheses);
+  middle_W_.reset();
+  worth_ = kFrameWorth;
+  for (Hypothesis& hypothesis : hypotheses_) hypothesis.nats = worth_ * hypothesis.fitness.Sum();
+  Judge();
+}
+
+void HypothesisSet::Follow(Objective& objective, const VoxelCloud& cloud, double dt_s) {
+  // Larger differences between motion and prediction are out of reach of a fit.
+  constexpr double kLeap_mm = 50;
+  const Vector3 middle_W = cloud.Centroid();
+  const Vector3 moved_W = middle_W_ ? Vector3(middle_W - *middle_W_) : Vector3::Zero();
+  worth_ = kFrameWorth * std::min(1.0, dt_s / kAlike_s);
+  for (Hypothesis& hypothesis : hypotheses_) {
+    const Vector3 before_W = hypothesis.filter.pose().X_WT.p;
+    if (dt_s > 0) hypothesis.filter.Predict(dt_s);
+    const Vector3 unforeseen_W = moved_W - (hypothesis.filter.pose().X_WT.p - before_W);
+    if (middle_W_ && unforeseen_W.norm() > kLeap_mm)
+      FollowLeap(objective, unforeseen_W, hypothesis);
+    hypothesis.Fit(objective);
+    hypothesis.nats += worth_ * hypothesis.fitness.Sum();
+  }
+  middle_W_ = middle_W;
+  Judge();
+}
+
+void HypothesisSet::Offer(Objective& objective, const PoseState& pose) {
+  const double start = objective.At(best().body, pose, best().things).Sum();
+  if (start > best().fitness.Sum() + kHopelessNats) return;
+  offered_ = best();
+  offered_->Jump(objective, pose);
+  offered_->nats += worth_ * (offered_->fitness.Sum() - best().fitness.Sum());
+  Offer(*offered_);
+}
+
+void HypothesisSet::Offer(const Hypothesis& hypothesis) {
+  if (!hypothesis.filter.is_sound()) return;
+  const auto is_same = [&](const Hypothesis& other) { return AreSame(hypothesis, other); };
+  const auto known = std::ranges::find_if(hypotheses_, is_same);
+  if (known == hypotheses_.end()) {
+    hypotheses_.push_back(hypothesis);
+  } else if (hypothesis.fitness.Sum() < known->fitness.Sum()) {
+    // What spoke against the pose so far still does.
+    const double nats = known->nats;
+    *known = hypothesis;
+    known->nats = nats;
+  }
+  Judge();
+}
+
+void HypothesisSet::BelieveLikeliest() {
+  std::iter_swap(hypotheses_.begin(), std::ranges::min_element(hypotheses_, {}, &Hypothesis::nats));
+}
+
+void HypothesisSet::Judge() {
+  Merge();
+  const auto likeliest = std::ranges::min_element(hypotheses_, {}, &Hypothesis::nats);
+  if (likeliest->nats < best().nats - kChangeNats) {
+    std::iter_swap(hypotheses_.begin(), likeliest);
+    ++changes_;
+  }
+  Drop();
+}
+
+// Of two that are the same pose, the likelier stays in the place of the first.
+void HypothesisSet::Merge() {
+  for (std::size_t i = 0; i < hypotheses_.size(); ++i) {
+    for (std::size_t j = hypotheses_.size() - 1; j > i; --j) {
+      Hypothesis &a = hypotheses_[i], &b = hypotheses_[j];
+      if (!AreSame(a, b)) continue;
+      if (b.nats < a.nats) std::swap(a, b);
+      hypotheses_.erase(hypotheses_.begin() + static_cast<std::ptrdiff_t>(j));
+    }
+  }
+}
+
+void HypothesisSet::Drop() {
+  std::sort(hypotheses_.begin() + 1, hypotheses_.end(),
+            [](const Hypothesis& a, const Hypothesis& b) { return a.nats < b.nats; });
+  if (hypotheses_.size() > kMost) hypotheses_.erase(hypotheses_.begin() + kMost, hypotheses_.end());
+  const double likeliest = std::ranges::min_element(hypotheses_, {}, &Hypothesis::nats)->nats;
+  for (Hypothesis& hypothesis : hypotheses_) hypothesis.nats -= likeliest;
+  const auto is_improbable = [](const Hypothesis& one) { return one.nats > kDropNats; };
+  hypotheses_.erase(std::remove_if(hypotheses_.begin() + 1, hypotheses_.end(), is_improbable),
+                    hypotheses_.end());
+}
+
+double HypothesisSet::probability() const {
+  double sum = 0;
+  for (const Hypothesis& hypothesis : hypotheses_) sum += std::exp(best().nats - hypothesis.nats);
+  return 1 / sum;
+}
+
+}  // namespace mocap

@@ -1,0 +1,64 @@
+// A person's hypotheses: odds decide between them.
+#pragma once
+
+#include <vector>
+
+#include "core/hypotheses/hypothesis.h"
+
+namespace mocap {
+
+/// Residuals all over a body err alike: so much is a frame's -log p worth. With it, the odds of right
+/// and wrong poses are as often right as they say (`mocap benchmark --parts noise`).
+inline constexpr double kFrameWorth = 0.25;
+
+/// A few explanations of one person. One frame does not tell arms that cross from arms that touch,
+/// whoever stands in a skirt from behind, or a limb from a shadow of the hull; some frames do.
+///
+/// Each hypothesis follows the person with its own filter. Its -log p is integrated over capture
+/// time: successive frames err alike, so that all frames within kAlike_s count as one. One of two
+/// that have become the same pose goes, and so does whatever is a thousand times less probable than
+/// the best.
+class HypothesisSet {
+ public:
+  void Clear() { hypotheses_.clear(); }
+  bool empty() const { return hypotheses_.empty(); }
+
+  /// Begins with some hypotheses, of which the first is believed. @pre not empty
+  void Begin(std::vector<Hypothesis> hypotheses);
+  /// Predicts all hypotheses, fits them to the next frame and weighs them.
+  void Follow(Objective& objective, const VoxelCloud& cloud, double dt_s);
+  /// Adds a pose that the believed body may have instead, as of this frame.
+  void Offer(Objective& objective, const PoseState& pose);
+  /// Adds a hypothesis that was fitted to this frame. One that is a known pose keeps what spoke
+  /// against that.
+  void Offer(const Hypothesis& hypothesis);
+  /// Merges, drops, and believes another one if its odds are 19 to 1.
+  void Judge();
+
+  /// Believes the likeliest, however small its odds: nothing was believed before.
+  void BelieveLikeliest();
+
+  /// The hypothesis that is believed. @pre not empty
+  Hypothesis& best() { return hypotheses_.front(); }
+  const Hypothesis& best() const { return hypotheses_.front(); }
+  /// Its probability, as far as the set has the right one.
+  double probability() const;
+  std::vector<Hypothesis>& all() { return hypotheses_; }
+  const std::vector<Hypothesis>& all() const { return hypotheses_; }
+  /// How much the last frame's -log p counts.
+  double frame_worth() const { return worth_; }
+  /// How often the mind has been changed.
+  int changes() const { return changes_; }
+
+ private:
+  void Merge();
+  void Drop();
+
+  std::vector<Hypothesis> hypotheses_;  ///< The first is believed.
+  std::optional<Vector3> middle_W_;     ///< Of the voxels of the previous frame.
+  std::optional<Hypothesis> offered_;   ///< Only to reuse its memory.
+  double worth_ = 1;
+  int changes_ = 0;
+};
+
+}  // namespace mocap

@@ -1,0 +1,87 @@
+// §6.1: the iterated extended Kalman filter over the pose.
+//
+// The error lives in the tangent space of the pose (PoseStep), so there are no redundant parameters
+// and no gimbal lock. The update uses the information form: the cost of any number of points
+// depends on the size of the state.
+#pragma once
+
+#include <functional>
+
+#include "core/body/body_model.h"
+#include "core/body/pose_state.h"
+#include "core/objective/update_equations.h"
+
+namespace mocap {
+
+/// Motion model, independent of the time between frames: white noise of acceleration drives
+/// velocities that decay (Ornstein and Uhlenbeck 1930).
+struct MotionNoise {
+  double velocity_decay_s = 0.25;  ///< Without measurements a motion decays in this time.
+  double translation_mm = 3000;    ///< [mm/s²/√Hz]
+  double rotation_rad = 10;        ///< [rad/s²/√Hz]
+  double joint_rad = 20;           ///< [rad/s²/√Hz]
+};
+
+/// Number of linearisations: at most `usual` if the pose converges, and up to `most` while it still
+/// moves far.
+struct Iterations {
+  int usual = 5;
+  int most = 15;
+};
+
+/// Estimates pose and its rate from measurements. Allocates no memory.
+class PoseFilter {
+ public:
+  explicit PoseFilter(const MotionNoise& noise) : noise_(noise) {}
+
+  /// Starts at a pose with the given uncertainty.
+  void Reset(const PoseState& pose, double translation_std_mm, double angle_std_rad);
+  /// Likewise, with a standard deviation for each part of a PoseStep.
+  void Reset(const PoseState& pose, const PoseStep& std);
+
+  /// Predicts the pose after a time `dt_s`; the filter does not change.
+  PoseState PredictedPose(double dt_s) const;
+  /// Propagates pose and covariance by a time `dt_s`.
+  void Predict(double dt_s);
+
+  /// Linearises the measurements at a pose; called once per iteration.
+  using Linearize = std::function<void(const PoseState&, UpdateEquations&)>;
+
+  /// Updates with measurements, which are linearised again in each iteration.
+  void Update(const Linearize& linearize, const Iterations& iterations);
+
+  /// Moves the pose as Update does, but keeps covariance and velocity.
+  void Draw(const Linearize& linearize, const Iterations& iterations);
+
+  /// Whether the last update produced a pose and a covariance. Otherwise the pose stayed the same,
+  /// and the track is lost.
+  bool is_sound() const { return is_sound_; }
+  const PoseState& pose() const { return pose_; }
+  const PoseCovariance& covariance() const { return P_; }
+
+  /// Moves the whole body, as if it had been predicted there.
+  void Shift(const Vector3& by_W) { pose_.X_WT.p += by_W; }
+
+  /// Jumps to a pose that was found by other means. Everything that was correlated with the old one
+  /// becomes unknown.
+  void Jump(const PoseState& pose);
+
+ private:
+  // Returns the information about the pose at convergence.
+  PoseCovariance Iterate(const Linearize& linearize, const Iterations& iterations,
+                         const PoseCovariance& prior_information);
+  PoseStep NoiseDensity() const;
+  PoseStep VelocityVariance() const;  // For a person who is seen for the first time.
+  void ForgetVelocity();
+
+  MotionNoise noise_;
+  bool is_sound_ = true;
+  PoseState pose_;
+  PoseStep velocity_;
+  // Blocks of the joint covariance of pose error and velocity.
+  PoseCovariance P_;
+  PoseCovariance P_vx_;
+  PoseCovariance P_vv_;
+};
+
+}  // namespace mocap

@@ -1,0 +1,35 @@
+// Beyond the paper: effect of the sizes on the surface of a posed body.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "core/body/body_model.h"
+#include "core/objective/objective.h"
+
+namespace mocap {
+
+/// Differentiates the capsules of a posed body by some of its sizes. Reuses its memory.
+class SizeJacobian {
+ public:
+  /// @param sizes  the sizes to differentiate by.
+  SizeJacobian(const BodyModel& body, std::span<const SizeMember> sizes);
+
+  /// Sets a body of the same table, and a pose.
+  void Update(const BodyModel& body, const PoseState& pose);
+  /// Returns how far the surface moves outward along a residual's normal as a size grows [mm/mm].
+  /// @param size  index among the sizes given to the constructor.
+  double OutwardBySize(const SurfaceResidual& residual, int size) const;
+
+ private:
+  struct Size {
+    SizeMember member;
+    std::vector<PosedCapsule> larger;  ///< The capsules with a size that is a millimetre larger.
+  };
+
+  BodyModel varied_;
+  std::vector<PosedCapsule> shape_;
+  std::vector<Size> sizes_;
+};
+
+}  // namespace mocap

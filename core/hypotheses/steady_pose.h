@@ -1,0 +1,37 @@
+// Beyond the paper: a body that does not move is not made to tremble by noise.
+#pragma once
+
+#include <optional>
+
+#include "core/body/body_model.h"
+#include "core/hypotheses/pose_filter.h"
+#include "core/motion_capture.h"
+
+namespace mocap {
+
+/// Steadies the poses of a filter, which follows fast motions and therefore the noise of each
+/// frame.
+///
+/// Each point of the body is measured once more, where it was in the frame before. The variance
+/// grows quickly with the distance (Geman and McClure 1987): noise is held back, and a motion that
+/// is larger than noise breaks free in the frame in which it begins. The filter's covariance tells
+/// how the parts of the body depend on each other, and how large the noise is.
+class SteadyPose {
+ public:
+  /// Forgets the frame before.
+  void Reset() { held_.reset(); }
+
+  /// Returns the pose of a frame.
+  /// @param std_mm  standard deviations of the body's points at the filter's pose.
+  /// @param dt_s    since the frame before.
+  const PoseState& Follow(const BodyModel& body, const PoseFilter& filter, const PointStds& std_mm,
+                          double dt_s);
+
+ private:
+  PoseState Steady(const BodyModel& body, const PoseFilter& filter, const PointStds& std_mm,
+                   double dt_s) const;
+
+  std::optional<PoseState> held_;
+};
+
+}  // namespace mocap

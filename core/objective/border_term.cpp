@@ -1,0 +1,39 @@
+#include "core/objective/border_term.h"
+
+namespace mocap {
+
+bool IsHeldByBorders(const Capsule& capsule, double share) {
+  switch (capsule.part) {
+    case BodyPart::kCalfL:
+    case BodyPart::kCalfR:
+      return !capsule.ends_at_b || share == 1;
+    case BodyPart::kLowerArmL:
+    case BodyPart::kLowerArmR:
+      return share > 0;
+    default:
+      return true;
+  }
+}
+
+void BorderTerm::SetEvidence(const Evidence& evidence, double pose_std_mm) {
+  noise_ = kBorderNoise.Widened(pose_std_mm);
+  borders_.resize(evidence.borders.size());
+  for (std::size_t i = 0; i < borders_.size(); ++i) borders_[i].SetOutline(evidence.borders[i]);
+}
+
+double BorderTerm::At(const PosedBody& posed, CapsuleSet capsules) const {
+  LogSum sum;
+  ForEach(posed, capsules, [&](int, double, const Vector3&, const Protrusion& protrusion) {
+    sum.Add(noise_.ScaledSquare(-protrusion.depth_mm));
+  });
+  return noise_.NatsOf(sum.Sum());
+}
+
+void BorderTerm::Linearize(const PosedBody& posed, CapsuleSet capsules, Linearisation& sums) const {
+  ForEach(posed, capsules, [&](int i, double, const Vector3& p_W, const Protrusion& protrusion) {
+    sums.chain.Add(posed.CarrierOf(i), p_W, protrusion.outward_W, -protrusion.depth_mm,
+                   noise_.VarianceAt(-protrusion.depth_mm));
+  });
+}
+
+}  // namespace mocap

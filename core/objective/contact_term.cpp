@@ -1,0 +1,129 @@
+#include "core/objective/contact_term.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <optional>
+
+namespace mocap {
+namespace {
+
+// Rays that miss every part by this much show something else, or a lost limb.
+constexpr double kUnexplained_mm = 60;
+// A contact this close to the rest of a body is no evidence for a limb: half of the rays' scale
+// more hardly change its cost.
+constexpr double kTaken_mm = 20;
+
+}  // namespace
+
+void ContactTerm::SetEvidence(const Evidence& evidence, int voxels, int rays, double pose_std_mm) {
+  ChooseContacts(evidence, voxels, rays, contacts_);
+  moving_.clear();
+  rest_mm_.clear();
+  SetContacts();
+  of_rays_ = kRayNoise.Widened(pose_std_mm).Of(rays_, kIndependentRays);
+  of_surface_ = kSurfaceNoise.Widened(pose_std_mm).Of(voxels_, kIndependentVoxels);
+}
+
+void ContactTerm::SetContacts() {
+  matcher_.SetContacts(contacts_);
+  rays_ = static_cast<int>(std::ranges::count_if(contacts_, &Contact::is_edge));
+  voxels_ = static_cast<int>(contacts_.size()) - rays_;
+}
+
+void ContactTerm::TakeOpen(ContactTerm& whole, const PosedBody& posed, CapsuleSet moving,
+                           CapsuleSet absent, const Things& things) {
+  moving_.clear();
+  posed_.clear();
+  for (int i = 0; i < std::ssize(posed.capsules()); ++i) {
+    if (moving >> i & 1)
+      moving_.push_back(i);
+    else if (!(absent >> i & 1))
+      posed_.push_back(posed.capsules()[i]);
+  }
+  std::optional<ThingPlaces> places;
+  if (things.any()) places.emplace(posed.body(), posed.posture(), things);
+  const std::vector<ContactMatch>& matches = whole.matcher_.Match(posed_, kReach_mm);
+  contacts_.clear();
+  rest_mm_.clear();
+  for (std::size_t i = 0; i < matches.size(); ++i) {
+    const Contact& contact = whole.matcher_.contacts()[i];
+    double rest_mm = matches[i].capsule < 0 ? kReach_mm : matches[i].distance.outside_mm;
+    if (std::abs(rest_mm) < kTaken_mm) continue;
+    if (places && rest_mm > kOfThing_mm && places->At(contact)) rest_mm = kOfThing_mm;
+    contacts_.push_back(contact);
+    rest_mm_.push_back(rest_mm);
+  }
+  SetContacts();
+  of_rays_ = whole.of_rays_;
+  of_surface_ = whole.of_surface_;
+}
+
+const std::vector<ContactMatch>& ContactTerm::Match(const PosedBody& posed) {
+  if (moving_.empty()) return matcher_.Match(posed.capsules(), kReach_mm);
+  posed_.clear();
+  for (const int i : moving_) posed_.push_back(posed.capsules()[i]);
+  return matcher_.Match(posed_, kReach_mm);
+}
+
+ContactNats ContactTerm::At(const PosedBody& posed, const Things& things) {
+  std::optional<ThingPlaces> places;
+  if (things.any() && moving_.empty()) places.emplace(posed.body(), posed.posture(), things);
+  ContactNats nats;
+  LogSum of_rays, of_missing, of_surface;
+  int touching = 0;
+  std::array<double, kThingCount> saved{};
+  int unexplained = 0;
+  ForEach(posed, [&](const Residual& residual, const Contact& contact) {
+    const ResidualNoise& noise = NoiseOf(residual.is_ray);
+    (!residual.is_ray      ? of_surface
+     : contact.misses_hull ? of_missing
+                           : of_rays)
+        .Add(noise.ScaledSquare(residual.outside_mm));
+    touching += residual.is_ray && !contact.misses_hull;
+    unexplained += residual.is_ray && residual.outside_mm > kUnexplained_mm;
+    if (!residual.is_ray) nats.surface_mm += std::abs(residual.outside_mm) / voxels_;
+    if (!places || residual.outside_mm <= kOfThing_mm) return;
+    if (const auto thing = places->At(contact))
+      saved[static_cast<int>(*thing)] +=
+          noise.NatsAt(residual.outside_mm) - noise.NatsAt(kOfThing_mm);
+  });
+  const double hit = of_rays.Sum(), surface = of_surface.Sum();
+  nats.rays = of_rays_.NatsOf(hit + of_missing.Sum());
+  nats.surface = of_surface_.NatsOf(surface);
+  const auto share = [](double sum, int count, const ResidualNoise& noise) {
+    return sum / (std::max(1, count) * std::log1p(noise.ScaledSquare(kReach_mm)));
+  };
+  nats.misfit =
+      touching > 0 ? share(hit, touching, of_rays_) : share(surface, voxels_, of_surface_);
+  nats.unexplained_share = static_cast<double>(unexplained) / std::max(1, rays_);
+  for (int i = 0; i < kThingCount; ++i) {
+    if (saved[i] <= kThingNats) continue;
+    nats.shown.set(i);
+    nats.things -= saved[i] - kThingNats;
+  }
+  return nats;
+}
+
+void ContactTerm::Linearize(const PosedBody& posed, const Things& things, Linearisation& sums) {
+  std::optional<ThingPlaces> places;
+  const Things shown = things.any() ? At(posed, things).shown : things;
+  if (shown.any()) places.emplace(posed.body(), posed.posture(), shown);
+  ForEach(posed, [&](const Residual& residual, const Contact& contact) {
+    if (residual.capsule < 0) return;
+    if (places && residual.outside_mm > kOfThing_mm && places->At(contact)) return;
+    sums.chain.Add(posed.CarrierOf(residual.capsule), residual.p_W, residual.normal_W,
+                   residual.outside_mm, NoiseOf(residual.is_ray).VarianceAt(residual.outside_mm));
+  });
+}
+
+CapsuleSet ContactTerm::CarvedAway() const {
+  const CapsuleSet carved = matcher_.CarvedAway();
+  if (moving_.empty()) return carved;
+  CapsuleSet capsules = 0;
+  for (std::size_t i = 0; i < moving_.size(); ++i)
+    if (carved >> i & 1) capsules |= CapsuleSet{1} << moving_[i];
+  return capsules;
+}
+
+}  // namespace mocap

@@ -1,0 +1,39 @@
+// Bones lie in flesh.
+#pragma once
+
+#include <optional>
+#include <span>
+
+#include "core/evidence/evidence.h"
+#include "core/objective/noise.h"
+#include "core/objective/place_columns.h"
+#include "core/objective/posed_body.h"
+
+namespace mocap {
+
+/// -log p of the places along each capsule's core: the residual is the distance from the flesh. A
+/// whole hull contains the body, so the bones of a right pose are hardly ever outside. With less
+/// weight, a large body with bent limbs would explain the clothes of a small one. A hull with holes
+/// says less.
+class FleshTerm {
+ public:
+  /// @param contacts  those that the pose is compared with; `evidence` is borrowed until the next
+  /// call.
+  void SetEvidence(const Evidence& evidence, std::span<const Contact> contacts, double pose_std_mm);
+  double At(const PosedBody& posed, CapsuleSet capsules) const;
+  void Linearize(const PosedBody& posed, CapsuleSet capsules, Linearisation& sums) const;
+
+  /// Vector from a point in the void to the nearest of the evidence's surface voxels; empty for a
+  /// point in flesh.
+  std::optional<Vector3> WayToFlesh(const Vector3& p_W) const;
+
+ private:
+  template <typename Visit>
+  void ForEach(const PosedBody& posed, CapsuleSet capsules, const Visit& visit) const;
+
+  const VoxelCloud* cloud_ = nullptr;
+  PlaceColumns surface_W_;
+  ResidualNoise noise_ = kFleshNoise;
+};
+
+}  // namespace mocap

@@ -1,0 +1,27 @@
+// The noise of each kind of evidence, as `mocap benchmark --parts noise` prints it.
+#pragma once
+
+#include "core/objective/residual_noise.h"
+
+namespace mocap {
+/// A part of the body farther away than this does not explain evidence [mm].
+inline constexpr double kReach_mm = 150;
+
+/// Rays that graze the person, about the body's surface.
+inline constexpr ResidualNoise kRayNoise{.freedom = 1.8, .inside_mm = 9, .outside_mm = 16};
+/// Voxels of the hull's surface, likewise.
+inline constexpr ResidualNoise kSurfaceNoise{.freedom = 4.6, .inside_mm = 12.7, .outside_mm = 32.5};
+/// Flesh beyond the border of a silhouette.
+inline constexpr ResidualNoise kBorderNoise{
+    .freedom = 2.0, .inside_mm = 11.2, .outside_mm = 11.2, .alike = 6};
+/// Bones outside of the flesh.
+inline constexpr ResidualNoise kFleshNoise{
+    .freedom = 2.0, .inside_mm = 20, .outside_mm = 20, .alike = 3};
+/// Depth of limbs within other parts.
+inline constexpr ResidualNoise kOverlapNoise{
+    .freedom = 10.0, .inside_mm = 23, .outside_mm = 23, .alike = 1};
+
+/// So many independent rays and voxels does a frame set have, however many are looked at.
+inline constexpr double kIndependentRays = 128, kIndependentVoxels = 30;
+
+}  // namespace mocap

@@ -1,0 +1,102 @@
+// What the tracker maximises: the probability of a body at a pose, given a frame's evidence.
+#pragma once
+
+#include <array>
+#include <numeric>
+#include <string_view>
+
+#include "core/objective/border_term.h"
+#include "core/objective/contact_term.h"
+#include "core/objective/flesh_term.h"
+#include "core/objective/overlap_term.h"
+#include "core/objective/pose_priors.h"
+
+namespace mocap {
+
+/// The terms of the objective.
+enum class Term { kRays, kSurface, kBorders, kFlesh, kOverlap, kThings, kJoints, kHabits };
+inline constexpr std::array<std::string_view, 8> kTermNames = {
+    "rays", "surface", "borders", "flesh", "overlap", "things", "joints", "habits"};
+inline constexpr int kTermCount = static_cast<int>(kTermNames.size());
+
+/// -log p of a body at a pose.
+struct Fitness {
+  std::array<double, kTermCount> nats{};
+  Things things;                 ///< Those that the evidence shows.
+  double unexplained_share = 0;  ///< Of the rays: no part is near.
+  double surface_mm = 0;         ///< Mean distance of the voxels' surface.
+  double misfit = 0;             ///< Mean of the rays; see ContactNats.
+
+  /// How far the trunk is turned against the heading: 0 to 1, the opposite way.
+  double backwards = 0;
+
+  bool IsCredible() const;
+  bool IsLost() const;
+  double& operator[](Term term) { return nats[static_cast<std::size_t>(term)]; }
+  double Sum() const { return std::accumulate(nats.begin(), nats.end(), 0.0); }
+};
+
+/// What a residual comes from: a voxel of the surface, a ray that grazes the person, or flesh
+/// beyond a silhouette's border.
+enum class ResidualKind { kSurface, kRay, kBorder };
+
+/// A residual of the surface, linearised.
+struct SurfaceResidual {
+  ResidualKind kind;
+  int capsule;   ///< Index into the body's shape().
+  double share;  ///< Position along its core.
+  Vector3
+      normal_W;  ///< Out of the surface; where the capsule tapers it leans and is longer than 1.
+  double outside_mm;
+  double variance;             ///< [mm²], larger for outliers.
+  PoseStep J_outside_by_step;  ///< Derivative of the core's position along the normal.
+};
+
+/// How closely an objective looks.
+struct ObjectiveOptions {
+  int voxels = 250;        ///< Surface voxels, spread evenly.
+  int rays = 600;          ///< Rays, likewise.
+  double pose_std_mm = 0;  ///< How far the poses may be off that are compared.
+};
+
+/// -log p of bodies at poses. Filter, searches and comparisons all use it. Reuses its memory.
+class Objective {
+ public:
+  explicit Objective(const ObjectiveOptions& options = {}) : options_(options) {}
+
+  /// Sets a frame; `evidence` is borrowed until the next call.
+  void SetEvidence(const Evidence& evidence, const Heading& heading);
+
+  /// @param things  what the body may wear or carry.
+  Fitness At(const BodyModel& body, const PoseState& pose, const Things& things);
+  /// Adds the linearised terms at a pose; for PoseFilter::Update.
+  void Linearize(const BodyModel& body, const PoseState& pose, const Things& things,
+                 UpdateEquations& equations);
+
+  /// Returns the residuals of contacts and borders at a pose, without those that no part is near;
+  /// valid until the next call.
+  const std::vector<SurfaceResidual>& ResidualsAt(const BodyModel& body, const PoseState& pose);
+
+  ContactTerm& contacts() { return contacts_; }
+  const BorderTerm& borders() const { return borders_; }
+  const FleshTerm& flesh() const { return flesh_; }
+  /// Evaluations so far, as multiples of one with all contacts.
+  double evaluations() const { return evaluations_; }
+  /// Counts an evaluation elsewhere that looked at so many contacts.
+  void Count(int contacts);
+  /// Counts all evaluations of another objective.
+  void CountAll(const Objective& other) { evaluations_ += other.evaluations_; }
+
+ private:
+  ObjectiveOptions options_;
+  Heading heading_;
+  ContactTerm contacts_;
+  BorderTerm borders_;
+  FleshTerm flesh_;
+  PosedBody posed_;
+  ChainEquations chain_;
+  std::vector<SurfaceResidual> residuals_;
+  double evaluations_ = 0;
+};
+
+}  // namespace mocap

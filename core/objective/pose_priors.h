@@ -1,0 +1,24 @@
+// Which poses and bodies are likely before the evidence is looked at.
+#pragma once
+
+#include "core/body/body_model.h"
+#include "core/evidence/heading.h"
+#include "core/objective/update_equations.h"
+
+namespace mocap {
+
+/// -log p of the joint angles: normal about their rest, and hardly beyond their limits.
+double JointNats(const BodyTable& table, const JointAngles& theta);
+/// Adds its linearisation. An angle beyond its limit is measured to be at the limit, so that the
+/// rest of the chain takes up the difference.
+void LinearizeJoints(const BodyTable& table, const PoseState& pose, UpdateEquations& equations);
+
+/// How far an upright trunk is turned against the heading, by feet or else by the way: 0 to 1, the
+/// opposite way. 0 if the heading is not known.
+double ShareBackwards(const PoseState& pose, const Heading& heading);
+
+/// -log p of the trunk's orientation and of the body's stature: few people are upside down, turned
+/// against their feet, walk backwards, or are very tall.
+double HabitNats(const BodyModel& body, const PoseState& pose, const Heading& heading);
+
+}  // namespace mocap

@@ -1,0 +1,21 @@
+#include "core/objective/posed_body.h"
+
+#include <algorithm>
+
+namespace mocap {
+
+void PosedBody::Set(const BodyModel& body, const PoseState& pose) {
+  body_ = &body;
+  posture_ = body.PostureAt(pose);
+  body.PoseShape(posture_, capsules_);
+}
+
+void PosedBody::Move(const PoseState& pose, std::span<const int> rows) {
+  body_->MoveAxes(pose, rows, posture_);
+  const std::vector<Capsule>& shape = body_->shape();
+  for (std::size_t i = 0; i < shape.size(); ++i)
+    if (std::ranges::find(rows, shape[i].carrier) != rows.end())
+      capsules_[i] = PosedCapsule(shape[i], posture_.X_W[shape[i].carrier]);
+}
+
+}  // namespace mocap

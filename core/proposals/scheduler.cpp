@@ -1,0 +1,172 @@
+#include "core/proposals/scheduler.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace mocap {
+namespace {
+
+// Evaluations of the objective per second of capture time, and the most that are saved up.
+constexpr double kPerS = 3000;
+constexpr double kMostSaved = kPerS / 3;
+// Searches after the first are limited to about the available time.
+constexpr double kSearchesPerS = 9;
+constexpr double kLeastEffort = 0.1;
+// Share of the rays that no part explains.
+constexpr double kUnexplainedShare = 0.005;
+// Rest after a round; it doubles as long as rounds are in vain.
+constexpr double kShortestRest_s = 0.1, kLongestRest_s = 0.4;
+constexpr double kHandsMoved_mm = 100;
+constexpr std::array kPairs = {kArms, kLegs};
+constexpr std::size_t kWholeStances = kLimbEnds.size() + kPairs.size();
+// Candidates of a search that are tracked with all limbs: at full effort, and otherwise.
+constexpr std::size_t kFinalists = 3, kFewFinalists = 1;
+// One right pose in a hundred has a greater misfit.
+constexpr double kDoubtful = 0.26;
+
+// Whether a share of the rays has grown by more than the noise of independent rays.
+bool IsClearlyMore(double share, double before) {
+  const double std = std::sqrt(before * (1 - before) / kIndependentRays);
+  return share > before + kUnexplainedShare + 2 * std;
+}
+
+}  // namespace
+
+double EffortWithin(double dt_s) { return std::clamp(kSearchesPerS * dt_s, kLeastEffort, 1.0); }
+
+void Scheduler::StartOver() {
+  strangers_.StartOver();
+  acquainted_.reset();
+  next_ = 0;
+  allowance_ = rest_s_ = rest_after_s_ = vain_share_ = 0;
+  hands_met_T_.reset();
+}
+
+StanceSearch& Scheduler::SearchFor(const std::optional<BodySizes>& known) {
+  if (!known) return strangers_;
+  if (!acquainted_ || !(acquainted_->body(0).sizes() == *known))
+    acquainted_.emplace(BodyModel(table_, *known));
+  return *acquainted_;
+}
+
+std::vector<Hypothesis> Scheduler::FindAnybody(const Frame& frame,
+                                               const std::optional<BodySizes>& known,
+                                               const SearchScope& scope) {
+  Objective& objective = frame.objective;
+  StanceSearch& search = SearchFor(known);
+  const std::vector<StanceCandidate>& candidates =
+      search.Find(frame.evidence, frame.heading, scope, objective);
+  const std::size_t finalists =
+      std::min(candidates.size(), scope.effort < 1 ? kFewFinalists : kFinalists);
+  std::vector<Hypothesis> found;
+  for (std::size_t i = 0; i < finalists; ++i) {
+    Hypothesis hypothesis(search.body(candidates[i].body), candidates[i].pose, !known);
+    hypothesis.things = candidates[i].things;
+    hypothesis.Fit(objective);
+    if (!known) hypothesis.MeasureSizes(objective);
+    HypothesisSet variants;
+    variants.Begin({std::move(hypothesis)});
+    TryAllLimbs(objective, variants);
+    for (Hypothesis& variant : variants.all()) {
+      if (!known) {
+        variant.sizes.emplace(search.body(candidates[i].body));
+        variant.MeasureSizes(objective);
+      }
+      found.push_back(std::move(variant));
+    }
+  }
+  std::ranges::stable_sort(found, {}, [](const Hypothesis& one) { return one.fitness.Sum(); });
+  if (!found.empty()) search.Remember(found.front().body.sizes(), found.front().filter.pose());
+  return found;
+}
+
+void Scheduler::OfferPoses(Objective& objective, HypothesisSet& hypotheses) {
+  for (const PoseState& pose : poses_) hypotheses.Offer(objective, pose);
+  poses_.clear();
+}
+
+void Scheduler::TryLimbs(std::size_t which, Objective& objective, HypothesisSet& hypotheses) {
+  const Hypothesis& believed = hypotheses.best();
+  if (which < kLimbEnds.size()) {
+    limbs_.Elsewhere(objective, believed, kLimbEnds[which], poses_);
+  } else {
+    limbs_.Both(objective, believed, kPairs[which - kLimbEnds.size()], poses_);
+  }
+  OfferPoses(objective, hypotheses);
+}
+
+void Scheduler::TryAllLimbs(Objective& objective, HypothesisSet& hypotheses) {
+  const bool is_explained = hypotheses.best().fitness.unexplained_share < kUnexplainedShare;
+  for (std::size_t which = 0; which < kWholeStances; ++which) {
+    const bool is_first_pair = which == kLimbEnds.size();
+    if (!is_explained || is_first_pair) TryLimbs(which, objective, hypotheses);
+    hypotheses.BelieveLikeliest();
+  }
+  for (const LimbPair& pair : kPairs) {
+    limbs_.Exchanged(objective, hypotheses.best(), pair, poses_);
+    OfferPoses(objective, hypotheses);
+    hypotheses.BelieveLikeliest();
+  }
+}
+
+void Scheduler::TryStances(const Frame& frame, HypothesisSet& hypotheses, bool sizes_are_known,
+                           double dt_s) {
+  const Hypothesis believed = hypotheses.best();
+  const std::optional<BodySizes> known =
+      sizes_are_known ? std::optional(believed.body.sizes()) : std::nullopt;
+  for (Hypothesis& found : FindAnybody(frame, known, {EffortWithin(dt_s), believed.things})) {
+    if (sizes_are_known) found.sizes = believed.sizes;
+    const Hypothesis& best = hypotheses.best();
+    found.nats = best.nats + hypotheses.frame_worth() * (found.fitness.Sum() - best.fitness.Sum());
+    hypotheses.Offer(found);
+  }
+}
+
+void Scheduler::Try(const Frame& frame, HypothesisSet& hypotheses, bool sizes_are_known,
+                    double dt_s) {
+  Objective& objective = frame.objective;
+  rest_s_ -= dt_s;
+  allowance_ = std::min(allowance_ + kPerS * dt_s, kMostSaved);
+  double spent = objective.evaluations();
+  if (HandsMeetAnew(hypotheses.best())) {
+    limbs_.Exchanged(objective, hypotheses.best(), kArms, poses_);
+    OfferPoses(objective, hypotheses);
+  }
+  while (allowance_ > 0) {
+    const Fitness fitness = hypotheses.best().fitness;
+    if (rest_s_ > 0 && !IsClearlyMore(fitness.unexplained_share, vain_share_)) return;
+    const bool is_doubtful = fitness.misfit > kDoubtful || fitness.backwards > 0.5;
+    const bool is_unexplained = fitness.unexplained_share >= kUnexplainedShare;
+    if (next_ < kWholeStances && is_unexplained) TryLimbs(next_, objective, hypotheses);
+    if (next_ == kWholeStances && is_doubtful) TryStances(frame, hypotheses, sizes_are_known, dt_s);
+    if (next_++ == kWholeStances) {
+      next_ = 0;
+      const bool was_in_vain = hypotheses.changes() == changes_before_;
+      changes_before_ = hypotheses.changes();
+      vain_share_ = fitness.unexplained_share;
+      rest_after_s_ = was_in_vain ? std::clamp(2 * rest_after_s_, kShortestRest_s, kLongestRest_s)
+                                  : kShortestRest_s;
+      rest_s_ = rest_after_s_;
+    }
+    const double now = objective.evaluations();
+    allowance_ -= now - spent;
+    spent = now;
+  }
+}
+
+bool Scheduler::HandsMeetAnew(const Hypothesis& believed) {
+  const PoseState& pose = believed.filter.pose();
+  const BodyPoints points_W = believed.body.PointsAt(believed.body.PostureAt(pose));
+  const Vector3 apart_W = points_W.col(static_cast<int>(Point::kFingertipsL)) -
+                          points_W.col(static_cast<int>(Point::kFingertipsR));
+  if (apart_W.norm() > believed.body.sizes().lower_arm) {
+    hands_met_T_.reset();
+    return false;
+  }
+  const Vector3 apart_T = pose.X_WT.R.transpose() * apart_W;
+  if (hands_met_T_ && (apart_T - *hands_met_T_).norm() < kHandsMoved_mm) return false;
+  hands_met_T_ = apart_T;
+  return true;
+}
+
+}  // namespace mocap

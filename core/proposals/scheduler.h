@@ -1,0 +1,71 @@
+// Where a person's pose is in doubt, other poses are proposed, as far as the budget goes.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "core/hypotheses/hypothesis_set.h"
+#include "core/proposals/limb_proposals.h"
+#include "core/proposals/stance_search.h"
+
+namespace mocap {
+
+/// Effort of a search within the time of a frame: the first search is a full one, later ones are
+/// limited to about the available time.
+double EffortWithin(double dt_s);
+
+/// Proposes poses. The budget is counted in evaluations of the objective per second of capture
+/// time.
+///
+/// While no part explains some rays, each arm and leg is tried elsewhere, then both arms and both
+/// legs, then whole stances if the fit is bad or the person faces backwards. A round is repeated
+/// after a rest, which is shorter if more is unexplained. Arms whose hands are close together are
+/// tried exchanged, even if everything is explained, and again whenever the hands have moved.
+class Scheduler {
+ public:
+  explicit Scheduler(const BodyTable& table)
+      : table_(table), strangers_(StanceSearch::OfStrangers(table)), limbs_(table) {}
+
+  /// Forgets the person.
+  void StartOver();
+
+  /// What a frame shows. Borrowed.
+  struct Frame {
+    Objective& objective;
+    const Evidence& evidence;
+    const Heading& heading;
+  };
+  /// Finds hypotheses about whoever is there.
+  /// @param known   sizes to keep; empty: they are measured.
+  /// @param effort  as in SearchScope.
+  std::vector<Hypothesis> FindAnybody(const Frame& frame, const std::optional<BodySizes>& known,
+                                      const SearchScope& scope);
+  /// Proposes poses for a frame, where the believed hypothesis is in doubt.
+  /// @param sizes_are_known  whether other sizes need not be tried.
+  /// @param dt_s             time since the frame before.
+  void Try(const Frame& frame, HypothesisSet& hypotheses, bool sizes_are_known, double dt_s);
+
+ private:
+  StanceSearch& SearchFor(const std::optional<BodySizes>& known);
+  void TryAllLimbs(Objective& objective, HypothesisSet& hypotheses);
+  // Tries one limb, or a pair after the limbs, elsewhere.
+  void TryLimbs(std::size_t which, Objective& objective, HypothesisSet& hypotheses);
+  void TryStances(const Frame& frame, HypothesisSet& hypotheses, bool sizes_are_known, double dt_s);
+  void OfferPoses(Objective& objective, HypothesisSet& hypotheses);
+  bool HandsMeetAnew(const Hypothesis& believed);
+
+  BodyTable table_;
+  StanceSearch strangers_;
+  std::optional<StanceSearch> acquainted_;  ///< For a person of known sizes.
+  LimbProposals limbs_;
+  std::vector<PoseState> poses_;
+  std::size_t next_ = 0;                ///< Limb; pair after the limbs; stances at the end.
+  double allowance_ = 0;                ///< Evaluations that may be spent.
+  double rest_s_ = 0;                   ///< Until the next round,
+  double vain_share_ = 0;               ///< unless clearly more than this is unexplained.
+  double rest_after_s_ = 0;             ///< Length of the last rest.
+  int changes_before_ = 0;              ///< Changes of mind before this round.
+  std::optional<Vector3> hands_met_T_;  ///< From right to left, when exchanged arms were tried.
+};
+
+}  // namespace mocap

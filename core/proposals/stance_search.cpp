@@ -1,0 +1,185 @@
+#include "core/proposals/stance_search.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <utility>
+
+namespace mocap {
+namespace {
+
+// Bodies of strangers. Clothes and hulls make everybody appear stouter. With realistic widths,
+// people would be taken for taller ones.
+constexpr double kSmallestMm = 1080;
+constexpr double kLargestMm = 2080;
+constexpr double kStatureStep = 1.06;
+constexpr std::array<double, 4> kBuilds = {1, 1.15, 1.32, 1.52};
+// Every third stature is tried, with this build; then its neighbours.
+constexpr int kCoarseStep = 3;
+constexpr int kCoarseBuild = 1;
+// After the other builds comes this one in a skirt, with its drape as shares of the stature. It is
+// only tried as a neighbour: in a skirt, who faces backwards looks nearly the same.
+constexpr int kDrapedBuild = static_cast<int>(kBuilds.size());
+constexpr double kDrapeHip = 0.02, kDrapeKnee = 0.045, kDrapeCalf = 0.03;
+// Uncertainty of a proposed pose.
+constexpr double kStartStdMm = 100;
+constexpr double kStartStdRad = 0.5;
+// Share of the edges that miss the hull. Beyond it, flesh is torn, and what no part explains is no
+// evidence of a thing.
+constexpr double kTooMuchMissing = 0.05;
+// Poses whose points have a smaller mean distance than this are equal.
+constexpr double kSameMm = 60;
+constexpr std::size_t kKept = 6;
+constexpr std::size_t kWithNeighbours = 3;
+constexpr int kNeighbourhoods = 2;
+// Height of a standing person's middle, as a share of the stature.
+constexpr double kMiddleShare = 0.55;
+
+BodySizes SizesOf(double stature_mm, double build) {
+  BodySizes sizes = AverageSizes(stature_mm);
+  for (const SizeMember width : kStoutWidths) sizes.*width *= build;
+  return sizes;
+}
+
+// Possible positions of a person's middle: that of the flesh; and if legs were carved away, that of
+// a person standing on the floor below.
+std::vector<Vector3> MiddlesOf(const VoxelCloud& cloud) {
+  std::vector<Vector3> middles_W = {cloud.Centroid()};
+  const auto height_mm = [](const Voxel& voxel) { return voxel.center_W.z(); };
+  const auto [lowest, highest] = std::ranges::minmax(cloud.voxels(), {}, height_mm);
+  if (!LacksLegs(height_mm(lowest))) return middles_W;
+  const Vector3 middle_W = middles_W.front();
+  middles_W.emplace_back(middle_W.x(), middle_W.y(), kMiddleShare * height_mm(highest));
+  return middles_W;
+}
+
+}  // namespace
+
+// Number of samples, iterations of the fit, and number of poses that remain.
+struct StanceSearch::Round {
+  int voxels, rays;
+  double pose_std_mm;     ///< How far the poses are off.
+  Iterations iterations;  ///< With 0, poses are compared as they are.
+  double kept;            ///< In a search with full effort.
+};
+
+StanceSearch StanceSearch::OfStrangers(const BodyTable& table) {
+  std::vector<BodyModel> bodies;
+  for (double stature_mm = kSmallestMm; stature_mm < kLargestMm; stature_mm *= kStatureStep) {
+    for (const double build : kBuilds) bodies.emplace_back(table, SizesOf(stature_mm, build));
+    BodySizes draped = SizesOf(stature_mm, kBuilds[kCoarseBuild]);
+    draped.drape_hip = kDrapeHip * stature_mm;
+    draped.drape_knee = kDrapeKnee * stature_mm;
+    draped.drape_calf = kDrapeCalf * stature_mm;
+    bodies.emplace_back(table, draped);
+  }
+  return {std::move(bodies), kDrapedBuild + 1};
+}
+
+StanceSearch::StanceSearch(std::vector<BodyModel> bodies, int builds)
+    : bodies_(std::move(bodies)), builds_(builds) {
+  for (const BodyModel& body : bodies_) libraries_.emplace_back(body);
+}
+
+const std::vector<StanceCandidate>& StanceSearch::Find(const Evidence& evidence,
+                                                       const Heading& heading,
+                                                       const SearchScope& scope, Objective& frame) {
+  constexpr Round kWeighing{40, 80, kStartStdMm, {0, 0}, 160};
+  constexpr std::array kHeats = {Round{40, 80, kStartStdMm / 2, {2, 4}, 48},
+                                 Round{80, 120, kStartStdMm / 4, {3, 6}, 12}};
+  constexpr Round kFinal{150, 200, 0, {4, 15}, 20};
+  const std::vector<StanceCandidate> best_before = std::exchange(candidates_, {});
+  Propose(evidence.cloud);
+  Play(evidence, heading, kWeighing, scope, frame);
+  for (const Round& heat : kHeats) Play(evidence, heading, heat, scope, frame);
+  candidates_.insert(candidates_.end(), best_before.begin(), best_before.end());
+  Play(evidence, heading, kFinal, {1, scope.things}, frame);
+  KeepDistinct();
+  for (int i = 0; i < kNeighbourhoods && bodies_.size() > 1; ++i) {
+    ProposeNeighbours();
+    Play(evidence, heading, kFinal, {1, scope.things}, frame);
+    KeepDistinct();
+  }
+  return candidates_;
+}
+
+void StanceSearch::Remember(const BodySizes& sizes, const PoseState& pose) {
+  const auto nearest = std::ranges::min_element(bodies_, {}, [&](const BodyModel& body) {
+    return std::abs(body.sizes().Stature() - sizes.Stature()) +
+           std::abs(body.sizes().torso_depth - sizes.torso_depth) +
+           std::abs(body.sizes().drape_knee - sizes.drape_knee);
+  });
+  candidates_.push_back({static_cast<int>(nearest - bodies_.begin()), pose, 0});
+}
+
+void StanceSearch::Propose(const VoxelCloud& cloud) {
+  const std::vector<Vector3> middles_W = MiddlesOf(cloud);
+  const std::vector<Vector3> axes_W = TrunkAxes(cloud);
+  const int first = builds_ == 1 ? 0 : (kCoarseStep / 2) * builds_ + kCoarseBuild;
+  for (int body = first; body < std::ssize(bodies_); body += kCoarseStep * builds_) {
+    poses_.clear();
+    for (const Vector3& middle_W : middles_W)
+      for (const Vector3& up_W : axes_W) libraries_[body].Propose(middle_W, up_W, poses_);
+    for (const PoseState& pose : poses_) candidates_.push_back({body, pose, 0});
+  }
+}
+
+// Bodies of the next size may explain the evidence better in the same pose.
+void StanceSearch::ProposeNeighbours() {
+  const std::size_t count = std::min(candidates_.size(), kWithNeighbours);
+  for (std::size_t i = 0; i < count; ++i) {
+    const int body = candidates_[i].body, build = body % builds_;
+    const auto propose = [&](int other) {
+      if (other >= 0 && other < std::ssize(bodies_))
+        candidates_.push_back({other, candidates_[i].pose, 0});
+    };
+    propose(body - builds_);
+    propose(body + builds_);
+    if (build == kDrapedBuild) {
+      propose(body - kDrapedBuild + kCoarseBuild);
+      continue;
+    }
+    if (build > 0) propose(body - 1);
+    if (build + 1 < kDrapedBuild) propose(body + 1);
+    propose(body - build + kDrapedBuild);
+  }
+}
+
+void StanceSearch::Play(const Evidence& evidence, const Heading& heading, const Round& round,
+                        const SearchScope& scope, Objective& frame) {
+  Objective objective({round.voxels, round.rays, round.pose_std_mm});
+  objective.SetEvidence(evidence, heading);
+  const Things things = evidence.MissingShare() < kTooMuchMissing ? scope.things : Things{};
+  for (StanceCandidate& candidate : candidates_) {
+    const BodyModel& body = bodies_[candidate.body];
+    if (round.iterations.most > 0) {
+      PoseFilter filter{MotionNoise{}};
+      filter.Reset(candidate.pose, kStartStdMm, kStartStdRad);
+      DrawNear(objective, body, {}, round.iterations, filter);
+      candidate.pose = filter.pose();
+    }
+    const Fitness fitness = objective.At(body, candidate.pose, things);
+    candidate.nats = fitness.Sum();
+    candidate.things = fitness.things;
+  }
+  frame.CountAll(objective);
+  std::ranges::stable_sort(candidates_, {}, &StanceCandidate::nats);
+  const auto kept = static_cast<std::size_t>(std::ceil(scope.effort * round.kept));
+  candidates_.resize(std::min(candidates_.size(), kept));
+}
+
+void StanceSearch::KeepDistinct() {
+  std::vector<BodyPoints> kept_W;
+  std::erase_if(candidates_, [&](const StanceCandidate& candidate) {
+    if (kept_W.size() == kKept) return true;
+    const BodyModel& body = bodies_[candidate.body];
+    const BodyPoints points_W = body.PointsAt(body.PostureAt(candidate.pose));
+    const bool is_known = std::ranges::any_of(kept_W, [&](const BodyPoints& other_W) {
+      return (points_W - other_W).colwise().norm().mean() < kSameMm;
+    });
+    if (!is_known) kept_W.push_back(points_W);
+    return is_known;
+  });
+}
+
+}  // namespace mocap

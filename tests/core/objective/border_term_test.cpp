@@ -1,0 +1,73 @@
+#include "core/objective/border_term.h"
+
+#include <gtest/gtest.h>
+
+#include "tests/support/fitted_body.h"
+#include "tests/support/slopes.h"
+
+namespace mocap {
+namespace {
+
+constexpr CapsuleSet kAllCapsules = ~CapsuleSet{0};
+
+class BorderTermTest : public FittedBody {
+ protected:
+  double At(const BodyModel& body, const PoseState& pose,
+            CapsuleSet capsules = kAllCapsules) const {
+    PosedBody posed;
+    posed.Set(body, pose);
+    return term_.At(posed, capsules);
+  }
+  void SeeBorders(const PoseState& truth) {
+    evidence_ = studio_.Show(body_, truth);
+    term_.SetEvidence(evidence_, 0);
+  }
+
+  BorderTerm term_;
+};
+
+TEST_F(BorderTermTest, DescendsWhatItCosts) {
+  const PoseState truth = Standing({.arm_l = kArmOut, .leg_r = kStep});
+  SeeBorders(truth);
+  const PoseState pose = Off(truth);
+  const PoseStep gradient = GradientOf(body_, pose, [&](const PosedBody& posed, auto& sums) {
+    term_.Linearize(posed, kAllCapsules, sums);
+  });
+  ExpectOpposite(gradient, SlopeOf([&](const PoseState& at) { return At(body_, at); }, pose), 1e-4);
+}
+
+TEST_F(BorderTermTest, CostsMoreTheFartherFleshIsBeyondTheBorder) {
+  const PoseState truth = Standing({.arm_l = kArmOut});
+  SeeBorders(truth);
+  double last = At(body_, truth);
+  for (const double more_mm : {20.0, 40.0, 70.0}) {
+    BodySizes sizes = body_.sizes();
+    sizes.lower_arm += more_mm;
+    const double nats = At(BodyModel(body_.table(), sizes), truth);
+    EXPECT_GT(nats, last) << more_mm;
+    last = nats;
+  }
+}
+
+TEST_F(BorderTermTest, OfSomeCapsulesIsAPartOfTheWhole) {
+  const PoseState truth = Standing({.arm_l = kArmOut, .leg_r = kStep});
+  SeeBorders(truth);
+  const PoseState pose = Off(truth);
+  constexpr CapsuleSet kSome = 0x55555555;
+  EXPECT_GT(At(body_, pose, kSome), 0);
+  EXPECT_NEAR(At(body_, pose, kSome) + At(body_, pose, ~kSome), At(body_, pose), 1e-9);
+}
+
+TEST_F(BorderTermTest, HeelsAndElbowsAreNotHeldTwice) {
+  Capsule capsule{.part = BodyPart::kCalfL, .ends_at_b = true};
+  EXPECT_FALSE(IsHeldByBorders(capsule, 0)) << "the heel";
+  EXPECT_TRUE(IsHeldByBorders(capsule, 1)) << "the toes";
+  capsule.part = BodyPart::kLowerArmR;
+  EXPECT_FALSE(IsHeldByBorders(capsule, 0)) << "the elbow";
+  EXPECT_TRUE(IsHeldByBorders(capsule, 0.5));
+  capsule.part = BodyPart::kTorso;
+  EXPECT_TRUE(IsHeldByBorders(capsule, 0));
+}
+
+}  // namespace
+}  // namespace mocap
