@@ -24,8 +24,8 @@ constexpr int kFramesToLose = 3;
 constexpr double kForgetAfterS = 1.0;
 // Sizes settle after this many well-fitted frames.
 constexpr int kFramesToRefine = 90;
-// Odds of 1000 to 1 make somebody a stranger where one person is expected: sizes that are measured in
-// the same frame fit better than known ones.
+// Odds of 1000 to 1 make somebody a stranger where one person is expected: sizes that are measured
+// in the same frame fit better than known ones.
 constexpr double kStrangerNats = 6.9;
 constexpr double kSettledMm = 3;  // §8.1
 constexpr int kFramesToSettle = 6;
@@ -105,6 +105,8 @@ class SurfaceCapture::Impl {
 
   void Lose() {
     result_.state = CaptureState::kLost;
+    sizes_of_lost_ = hypotheses_.best().sizes;
+    heading_watch_.StartOver();
     lost_s_ = 0;
   }
 
@@ -120,6 +122,7 @@ class SurfaceCapture::Impl {
     scheduler_.StartOver();
     heading_watch_.StartOver();
     known_ = given_;
+    sizes_of_lost_.reset();
     looks_anew_ = true;
   }
 
@@ -144,10 +147,13 @@ class SurfaceCapture::Impl {
   void Search(double dt_s) {
     const double effort = std::exchange(looks_anew_, false) ? 1 : EffortWithin(dt_s);
     std::vector<Hypothesis> found = scheduler_.FindAnybody(Frame(), known_, {effort});
-    if (found.empty()) return;
-    hypotheses_.Begin(std::move(found));
-    const Hypothesis& best = hypotheses_.best();
-    if (!best.fitness.IsCredible() || (known_ && IsStranger(effort))) return;
+    if (found.empty() || !found.front().fitness.IsCredible()) return;
+    if (known_ && IsStranger(found.front(), effort)) return;
+    // Sizes that were not settled when the person was lost go on being measured.
+    if (known_)
+      for (Hypothesis& hypothesis : found) hypothesis.sizes = sizes_of_lost_;
+    hypotheses_.Begin(std::move(found), evidence_.cloud.Centroid());
+    scheduler_.BeginRounds();
     looks_anew_ = true;
     frames_acquiring_ = 1;
     result_.state = known_ ? CaptureState::kTracking : CaptureState::kAcquiring;
@@ -156,12 +162,12 @@ class SurfaceCapture::Impl {
   }
 
   // Whether a body of other sizes explains the evidence clearly better than the known one.
-  bool IsStranger(double effort) {
+  bool IsStranger(const Hypothesis& known, double effort) {
     const std::vector<Hypothesis> strangers =
         scheduler_.FindAnybody(Frame(), std::nullopt, {effort});
     if (strangers.empty()) return false;
-    const double lead = hypotheses_.best().fitness.Sum() - strangers.front().fitness.Sum();
-    return hypotheses_.frame_worth() * lead > kStrangerNats;
+    const double lead = known.fitness.Sum() - strangers.front().fitness.Sum();
+    return kFrameWorth * lead > kStrangerNats;
   }
 
   void Follow(double dt_s) {
@@ -206,6 +212,7 @@ class SurfaceCapture::Impl {
     if (!SizesAreKnown()) {
       hypotheses_.Clear();
       known_ = given_;
+      sizes_of_lost_.reset();
     }
   }
 
@@ -228,7 +235,8 @@ class SurfaceCapture::Impl {
           CovarianceOf(body, posture, static_cast<Point>(i), points_W.col(i), filter.covariance());
       Eigen::SelfAdjointEigenSolver<Matrix3> axes;
       axes.computeDirect(covariance, Eigen::EigenvaluesOnly);
-      result_.point_std_mm[i] = std::sqrt(std::max(0.0, axes.eigenvalues().maxCoeff()) / kFrameWorth);
+      result_.point_std_mm[i] =
+          std::sqrt(std::max(0.0, axes.eigenvalues().maxCoeff()) / kFrameWorth);
     }
   }
 
@@ -242,6 +250,7 @@ class SurfaceCapture::Impl {
   SteadyPose steady_;
   std::optional<BodySizes> known_;
   std::optional<BodySizes> given_;  ///< Known before the person was seen.
+  std::optional<SizeRefiner> sizes_of_lost_;
   std::optional<std::int64_t> last_ns_;
   CaptureResult result_;
   double lost_s_ = 0;       ///< Time since the person was lost.

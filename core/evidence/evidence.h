@@ -27,10 +27,7 @@ struct Evidence {
   std::vector<BoundingEdge> edges;
   BoundingEdgeFinder edge_finder;
 
-  bool is_alone = true;  ///< Nobody else was near.
-
   void Gather(const Sighting& sighting) {
-    is_alone = &sighting.flesh == &sighting.room;
     cloud.Build(sighting.flesh, sighting.room);
     borders.assign(sighting.borders.begin(), sighting.borders.end());
     edge_finder.Find(cloud, sighting.outlines, sighting.box_W, edges);

@@ -35,7 +35,9 @@ void Hypothesis::MeasureSizes(Objective& objective) {
   for (int i = 0; i < kSizeIterations; ++i) {
     sizes = without_frame;
     RefineSizes(objective);
-    Fit(objective);
+    // The same evidence again adds no information to the filter.
+    DrawNear(objective, body, things, Iterations{}, filter);
+    fitness = objective.At(body, filter.pose(), things);
   }
 }
 

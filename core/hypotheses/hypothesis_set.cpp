@@ -6,7 +6,7 @@
 namespace mocap {
 namespace {
 
-// Residuals of frames that are closer in time err alike (`mocap benchmark --parts noise`).
+// Residuals of frames this close in time correlate by 0.7 (`mocap benchmark --parts noise`).
 constexpr double kAlike_s = 0.1;
 constexpr std::size_t kMost = 4;
 // Odds of 19 to 1 change the mind; of 1 to 1000 end a hypothesis.
@@ -22,6 +22,11 @@ bool AreSame(const Hypothesis& a, const Hypothesis& b) {
   return MeanDistance(a.body, a.filter.pose(), b.body, b.filter.pose()) < kSame_mm;
 }
 
+// Frames that its sizes were measured in.
+int FramesOf(const Hypothesis& hypothesis) {
+  return hypothesis.sizes ? hypothesis.sizes->frames() : 0;
+}
+
 // Moves the body with the voxels if they moved farther than predicted and that explains them
 // better.
 void FollowLeap(Objective& objective, const Vector3& unforeseen_W, Hypothesis& hypothesis) {
@@ -35,9 +40,10 @@ void FollowLeap(Objective& objective, const Vector3& unforeseen_W, Hypothesis& h
 
 }  // namespace
 
-void HypothesisSet::Begin(std::vector<Hypothesis> hypotheses) {
+void HypothesisSet::Begin(std::vector<Hypothesis> hypotheses,
+                          const std::optional<Vector3>& middle_W) {
   hypotheses_ = std::move(hypotheses);
-  middle_W_.reset();
+  middle_W_ = middle_W;
   worth_ = kFrameWorth;
   for (Hypothesis& hypothesis : hypotheses_) hypothesis.nats = worth_ * hypothesis.fitness.Sum();
   Judge();
@@ -77,7 +83,8 @@ void HypothesisSet::Offer(const Hypothesis& hypothesis) {
   const auto known = std::ranges::find_if(hypotheses_, is_same);
   if (known == hypotheses_.end()) {
     hypotheses_.push_back(hypothesis);
-  } else if (hypothesis.fitness.Sum() < known->fitness.Sum()) {
+  } else if (hypothesis.fitness.Sum() < known->fitness.Sum() &&
+             FramesOf(hypothesis) >= FramesOf(*known)) {
     // What spoke against the pose so far still does.
     const double nats = known->nats;
     *known = hypothesis;
@@ -118,7 +125,9 @@ void HypothesisSet::Drop() {
   if (hypotheses_.size() > kMost) hypotheses_.erase(hypotheses_.begin() + kMost, hypotheses_.end());
   const double likeliest = std::ranges::min_element(hypotheses_, {}, &Hypothesis::nats)->nats;
   for (Hypothesis& hypothesis : hypotheses_) hypothesis.nats -= likeliest;
-  const auto is_improbable = [](const Hypothesis& one) { return one.nats > kDropNats; };
+  const auto is_improbable = [](const Hypothesis& one) {
+    return one.nats > kDropNats || !one.filter.is_sound();
+  };
   hypotheses_.erase(std::remove_if(hypotheses_.begin() + 1, hypotheses_.end(), is_improbable),
                     hypotheses_.end());
 }

@@ -7,15 +7,16 @@
 
 namespace mocap {
 
-/// Residuals all over a body err alike: so much is a frame's -log p worth. With it, the odds of right
-/// and wrong poses are as often right as they say (`mocap benchmark --parts noise`).
+/// A frame's -log p counts this much, because residuals all over a body err alike. With 0.1 to 0.4,
+/// depending on how hard the frames are, the odds of right and wrong poses are as often right as
+/// they say (`mocap benchmark --parts noise`).
 inline constexpr double kFrameWorth = 0.25;
 
 /// A few explanations of one person. One frame does not tell arms that cross from arms that touch,
 /// whoever stands in a skirt from behind, or a limb from a shadow of the hull; some frames do.
 ///
 /// Each hypothesis follows the person with its own filter. Its -log p is integrated over capture
-/// time: successive frames err alike, so that all frames within kAlike_s count as one. One of two
+/// time: successive frames err alike, so that all frames within 0.1 s count as one. One of two
 /// that have become the same pose goes, and so does whatever is a thousand times less probable than
 /// the best.
 class HypothesisSet {
@@ -24,7 +25,9 @@ class HypothesisSet {
   bool empty() const { return hypotheses_.empty(); }
 
   /// Begins with some hypotheses, of which the first is believed. @pre not empty
-  void Begin(std::vector<Hypothesis> hypotheses);
+  /// @param middle_W  of the voxels, if the next frame is to be followed.
+  void Begin(std::vector<Hypothesis> hypotheses,
+             const std::optional<Vector3>& middle_W = std::nullopt);
   /// Predicts all hypotheses, fits them to the next frame and weighs them.
   void Follow(Objective& objective, const VoxelCloud& cloud, double dt_s);
   /// Adds a pose that the believed body may have instead, as of this frame.
@@ -57,7 +60,7 @@ class HypothesisSet {
   std::vector<Hypothesis> hypotheses_;  ///< The first is believed.
   std::optional<Vector3> middle_W_;     ///< Of the voxels of the previous frame.
   std::optional<Hypothesis> offered_;   ///< Only to reuse its memory.
-  double worth_ = 1;
+  double worth_ = kFrameWorth;
   int changes_ = 0;
 };
 

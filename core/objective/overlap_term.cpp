@@ -20,7 +20,7 @@ bool CanStickIn(const PosedCapsule& limb, const Vector3& p_W, const PosedCapsule
   return (p_W - other.middle_W).squaredNorm() < reach_mm * reach_mm;
 }
 
-// Visits places of limbs in other parts: limb, place, part, place on its core, depth.
+// Visits places of limbs in other parts: limb, place, part, distance from it, depth.
 template <typename Visit>
 void ForEachOverlap(const PosedBody& posed, CapsuleSet limbs, CapsuleSet present,
                     const Visit& visit) {
@@ -35,7 +35,7 @@ void ForEachOverlap(const PosedBody& posed, CapsuleSet limbs, CapsuleSet present
         if (!CanStickIn(capsules[i], p_W, capsules[j])) continue;
         const PosedCapsule::Distance distance = capsules[j].DistanceTo(p_W);
         const double depth_mm = OverlapDepth(capsules[i], capsules[j], distance);
-        if (depth_mm > 0) visit(i, p_W, j, distance.core_W, depth_mm);
+        if (depth_mm > 0) visit(i, p_W, j, distance, depth_mm);
       }
     }
   }
@@ -62,7 +62,7 @@ double OverlapDepth(const PosedCapsule& limb, const PosedCapsule& other,
 double OverlapTerm::At(const PosedBody& posed, CapsuleSet limbs, CapsuleSet present) const {
   LogSum sum;
   ForEachOverlap(posed, limbs, present,
-                 [&](int, const Vector3&, int, const Vector3&, double depth_mm) {
+                 [&](int, const Vector3&, int, const PosedCapsule::Distance&, double depth_mm) {
                    sum.Add(kOverlapNoise.ScaledSquare(depth_mm));
                  });
   return kOverlapNoise.NatsOf(sum.Sum());
@@ -74,13 +74,13 @@ void OverlapTerm::Linearize(const PosedBody& posed, CapsuleSet limbs, CapsuleSet
   PoseStep J_limb(body.dof()), J_other(body.dof());
   ForEachOverlap(
       posed, limbs, present,
-      [&](int i, const Vector3& p_W, int j, const Vector3& core_W, double depth_mm) {
-        const Vector3 offset = p_W - core_W;
+      [&](int i, const Vector3& p_W, int j, const PosedCapsule::Distance& distance,
+          double depth_mm) {
+        const Vector3 offset = p_W - distance.core_W;
         if (offset.norm() < 1) return;
         // The other part is thinner where the place slides along a taper.
-        const PosedCapsule& other = posed.capsules()[j];
-        const double share = (core_W - other.a_W).norm() / (other.b_W - other.a_W).norm();
-        const Vector3 out_W = offset.normalized() - kGivesWay * LeanOf(other, share);
+        const Vector3 out_W =
+            offset.normalized() - kGivesWay * LeanOf(posed.capsules()[j], distance.share);
         body.DirectionalJacobian(posed.posture(), posed.CarrierOf(i), p_W, out_W, J_limb);
         body.DirectionalJacobian(posed.posture(), posed.CarrierOf(j), p_W, out_W, J_other);
         sums.equations.Add(J_limb - J_other, depth_mm, kOverlapNoise.VarianceAt(depth_mm));

@@ -9,11 +9,11 @@ namespace mocap {
 namespace {
 
 constexpr double kLimitStd_rad = 0.01;
-// Of people in motion capture, one in a thousand is upside down.
+// One pose in a thousand is upside down: an estimate.
 constexpr double kUpsideDownNats = 6.9;
 // Of 121 pairs of feet that showed a direction, one pointed backwards (decision 0121).
 constexpr double kAgainstFeetNats = 4.8;
-// So does one in fifty of those who walk.
+// One in fifty of those who walk goes backwards: an estimate.
 constexpr double kAgainstWayNats = 3.9;
 // Men are 1756 mm tall with a standard deviation of 67 (Gordon et al. 1989), and taller in a hull,
 // by hair and shoes. Whoever sits would otherwise be taken for a giant in the chair. Women and

@@ -9,7 +9,7 @@ namespace mocap {
 /// with one scale inside of the surface and another outside (Fernández and Steel 1998): cloth hangs
 /// off the flesh and never cuts into it. With degrees of freedom v and scale s of its side, a
 /// residual r costs
-///     w (v + 1) / 2 log(1 + r² / (v s²))  nats
+///     (v + 1) / (2 alike) log(1 + r² / (v s²))  nats
 /// more than one of 0. The derivative is r times a weight, and iterated least squares with these
 /// weights descends what comparisons compare.
 struct ResidualNoise {

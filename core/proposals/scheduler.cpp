@@ -21,7 +21,7 @@ constexpr std::array kPairs = {kArms, kLegs};
 constexpr std::size_t kWholeStances = kLimbEnds.size() + kPairs.size();
 // Candidates of a search that are tracked with all limbs: at full effort, and otherwise.
 constexpr std::size_t kFinalists = 3, kFewFinalists = 1;
-// One right pose in a hundred has a greater misfit.
+// Of poses within 40 mm of the truth, one in a hundred has a greater misfit.
 constexpr double kDoubtful = 0.26;
 
 // Whether a share of the rays has grown by more than the noise of independent rays.
@@ -37,6 +37,10 @@ double EffortWithin(double dt_s) { return std::clamp(kSearchesPerS * dt_s, kLeas
 void Scheduler::StartOver() {
   strangers_.StartOver();
   acquainted_.reset();
+  BeginRounds();
+}
+
+void Scheduler::BeginRounds() {
   next_ = 0;
   allowance_ = rest_s_ = rest_after_s_ = vain_share_ = 0;
   hands_met_T_.reset();
@@ -65,7 +69,7 @@ std::vector<Hypothesis> Scheduler::FindAnybody(const Frame& frame,
     hypothesis.Fit(objective);
     if (!known) hypothesis.MeasureSizes(objective);
     HypothesisSet variants;
-    variants.Begin({std::move(hypothesis)});
+    variants.Begin({std::move(hypothesis)}, std::nullopt);
     TryAllLimbs(objective, variants);
     for (Hypothesis& variant : variants.all()) {
       if (!known) {
@@ -132,6 +136,8 @@ void Scheduler::Try(const Frame& frame, HypothesisSet& hypotheses, bool sizes_ar
     limbs_.Exchanged(objective, hypotheses.best(), kArms, poses_);
     OfferPoses(objective, hypotheses);
   }
+  allowance_ -= objective.evaluations() - spent;
+  spent = objective.evaluations();
   while (allowance_ > 0) {
     const Fitness fitness = hypotheses.best().fitness;
     if (rest_s_ > 0 && !IsClearlyMore(fitness.unexplained_share, vain_share_)) return;

@@ -18,9 +18,9 @@ double EffortWithin(double dt_s);
 /// time.
 ///
 /// While no part explains some rays, each arm and leg is tried elsewhere, then both arms and both
-/// legs, then whole stances if the fit is bad or the person faces backwards. A round is repeated
-/// after a rest, which is shorter if more is unexplained. Arms whose hands are close together are
-/// tried exchanged, even if everything is explained, and again whenever the hands have moved.
+/// legs. If the fit is bad or the person faces backwards, whole stances are tried. Rounds without a
+/// change of mind are repeated after longer and longer rests. Arms whose hands are close together
+/// are tried exchanged, even if everything is explained, and again whenever the hands have moved.
 class Scheduler {
  public:
   explicit Scheduler(const BodyTable& table)
@@ -28,6 +28,8 @@ class Scheduler {
 
   /// Forgets the person.
   void StartOver();
+  /// Begins with somebody who was found.
+  void BeginRounds();
 
   /// What a frame shows. Borrowed.
   struct Frame {
@@ -37,7 +39,7 @@ class Scheduler {
   };
   /// Finds hypotheses about whoever is there.
   /// @param known   sizes to keep; empty: they are measured.
-  /// @param effort  as in SearchScope.
+  /// @param scope  what the search covers.
   std::vector<Hypothesis> FindAnybody(const Frame& frame, const std::optional<BodySizes>& known,
                                       const SearchScope& scope);
   /// Proposes poses for a frame, where the believed hypothesis is in doubt.
