@@ -1,5 +1,7 @@
 #include "core/objective/border_term.h"
 
+#include <algorithm>
+
 namespace mocap {
 
 bool IsHeldByBorders(const Capsule& capsule, double share) {
@@ -17,6 +19,9 @@ bool IsHeldByBorders(const Capsule& capsule, double share) {
 
 void BorderTerm::SetEvidence(const Evidence& evidence, double pose_std_mm) {
   noise_ = kBorderNoise.Widened(pose_std_mm);
+  const auto cameras =
+      evidence.borders.size() - std::ranges::count_if(evidence.borders, &Outline::empty);
+  noise_.alike *= static_cast<double>(std::max<std::size_t>(1, cameras));
   borders_.resize(evidence.borders.size());
   for (std::size_t i = 0; i < borders_.size(); ++i) borders_[i].SetOutline(evidence.borders[i]);
 }

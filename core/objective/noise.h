@@ -14,9 +14,9 @@ inline constexpr double kReach_mm = 150;
 inline constexpr ResidualNoise kRayNoise{.freedom = 1.8, .inside_mm = 9, .outside_mm = 16};
 /// Voxels of the hull's surface, likewise.
 inline constexpr ResidualNoise kSurfaceNoise{.freedom = 4.6, .inside_mm = 12.7, .outside_mm = 32.5};
-/// Flesh beyond the border of a silhouette.
+/// Flesh beyond the border of a silhouette; for each camera, because cameras show the same flesh.
 inline constexpr ResidualNoise kBorderNoise{
-    .freedom = 2.0, .inside_mm = 11.2, .outside_mm = 11.2, .alike = 6};
+    .freedom = 2.0, .inside_mm = 11.2, .outside_mm = 11.2, .alike = 0.75};
 /// Bones outside of the flesh.
 inline constexpr ResidualNoise kFleshNoise{
     .freedom = 2.0, .inside_mm = 20, .outside_mm = 20, .alike = 3};

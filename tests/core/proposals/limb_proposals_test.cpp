@@ -89,7 +89,7 @@ TEST_F(Proposed, CrossedLegsAreToldFromStraightOnesThatLookAlike) {
 
 TEST_F(Proposed, ExchangedHandsAreOnTheOthersSide) {
   const PoseState present =
-      Standing({.arm_l = {.raise = -30, .forward = 90}, .arm_r = {.raise = -60, .forward = 80}});
+      Standing({.arm_l = {.raise = -10, .forward = 90}, .arm_r = {.raise = -70, .forward = 80}});
   See(present);
   proposals_.Exchanged(objective_, Unfitted(present), kArms, poses_);
   ASSERT_EQ(poses_.size(), 1u);
