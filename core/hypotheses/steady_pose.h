@@ -22,7 +22,7 @@ class SteadyPose {
   void Reset() { held_.reset(); }
 
   /// Returns the pose of a frame.
-  /// @param std_mm  standard deviations of the body's points at the filter's pose.
+  /// @param std_mm  standard deviations of the body's points, as published.
   /// @param dt_s    since the frame before.
   const PoseState& Follow(const BodyModel& body, const PoseFilter& filter, const PointStds& std_mm,
                           double dt_s);

@@ -14,6 +14,12 @@ constexpr double kUnexplained_mm = 60;
 // more hardly change its cost.
 constexpr double kTaken_mm = 20;
 
+// The thing that explains a contact better than the body; empty if there is none.
+std::optional<Thing> ThingAt(const ThingPlaces& places, const ContactTerm::Residual& residual,
+                             const Contact& contact) {
+  return residual.outside_mm > kOfThing_mm ? places.At(contact) : std::nullopt;
+}
+
 }  // namespace
 
 void ContactTerm::SetEvidence(const Evidence& evidence, int voxels, int rays, double pose_std_mm) {
@@ -66,6 +72,11 @@ const std::vector<ContactMatch>& ContactTerm::Match(const PosedBody& posed) {
   return matcher_.Match(posed_, kReach_mm);
 }
 
+double ContactTerm::SavedBy(const Residual& residual) const {
+  const ResidualNoise& noise = NoiseOf(residual.is_ray);
+  return noise.NatsAt(residual.outside_mm) - noise.NatsAt(kOfThing_mm);
+}
+
 ContactNats ContactTerm::At(const PosedBody& posed, const Things& things) {
   std::optional<ThingPlaces> places;
   if (things.any() && moving_.empty()) places.emplace(posed.body(), posed.posture(), things);
@@ -83,10 +94,9 @@ ContactNats ContactTerm::At(const PosedBody& posed, const Things& things) {
     touching += residual.is_ray && !contact.misses_hull;
     unexplained += residual.is_ray && residual.outside_mm > kUnexplained_mm;
     if (!residual.is_ray) nats.surface_mm += std::abs(residual.outside_mm) / voxels_;
-    if (!places || residual.outside_mm <= kOfThing_mm) return;
-    if (const auto thing = places->At(contact))
-      saved[static_cast<int>(*thing)] +=
-          noise.NatsAt(residual.outside_mm) - noise.NatsAt(kOfThing_mm);
+    if (!places) return;
+    if (const auto thing = ThingAt(*places, residual, contact))
+      saved[static_cast<int>(*thing)] += SavedBy(residual);
   });
   const double hit = of_rays.Sum(), surface = of_surface.Sum();
   nats.rays = of_rays_.NatsOf(hit + of_missing.Sum());
@@ -107,14 +117,26 @@ ContactNats ContactTerm::At(const PosedBody& posed, const Things& things) {
 
 void ContactTerm::Linearize(const PosedBody& posed, const Things& things, Linearisation& sums) {
   std::optional<ThingPlaces> places;
-  const Things shown = things.any() ? At(posed, things).shown : things;
-  if (shown.any()) places.emplace(posed.body(), posed.posture(), shown);
-  ForEach(posed, [&](const Residual& residual, const Contact& contact) {
-    if (residual.capsule < 0) return;
-    if (places && residual.outside_mm > kOfThing_mm && places->At(contact)) return;
+  if (things.any() && moving_.empty()) places.emplace(posed.body(), posed.posture(), things);
+  std::array<double, kThingCount> saved{};
+  of_things_.clear();
+  const auto add = [&](const Residual& residual) {
     sums.chain.Add(posed.CarrierOf(residual.capsule), residual.p_W, residual.normal_W,
                    residual.outside_mm, NoiseOf(residual.is_ray).VarianceAt(residual.outside_mm));
+  };
+  ForEach(posed, [&](const Residual& residual, const Contact& contact) {
+    const auto thing = places ? ThingAt(*places, residual, contact) : std::nullopt;
+    if (thing) saved[static_cast<int>(*thing)] += SavedBy(residual);
+    if (residual.capsule < 0) return;
+    if (thing) {
+      of_things_.emplace_back(*thing, residual);
+    } else {
+      add(residual);
+    }
   });
+  // What things explain does not pull, if they are worth their cost.
+  for (const auto& [thing, residual] : of_things_)
+    if (saved[static_cast<int>(thing)] <= kThingNats) add(residual);
 }
 
 CapsuleSet ContactTerm::CarvedAway() const {

@@ -4,6 +4,7 @@
 // but the outlines' rays graze only the person (Cheung, Baker and Kanade 2003; Gall et al. 2009).
 #pragma once
 
+#include <utility>
 #include <vector>
 
 #include "core/objective/carried_things.h"
@@ -62,6 +63,8 @@ class ContactTerm {
 
  private:
   void SetContacts();
+  // How much less a contact costs if it is a thing's [nats].
+  double SavedBy(const Residual& residual) const;
   // Matches the contacts with the capsules that move.
   const std::vector<ContactMatch>& Match(const PosedBody& posed);
 
@@ -72,6 +75,7 @@ class ContactTerm {
   std::vector<double> rest_mm_;  ///< Distance of each contact from the rest of the body, likewise.
   std::vector<Contact> contacts_;
   std::vector<PosedCapsule> posed_;
+  std::vector<std::pair<Thing, Residual>> of_things_;
 };
 
 template <typename Visit>

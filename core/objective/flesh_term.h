@@ -12,10 +12,9 @@
 namespace mocap {
 
 /// -log p of the places along each capsule's core: the residual is the distance from the
-/// flesh that is looked at. A
-/// whole hull contains the body, so the bones of a right pose are hardly ever outside. With less
-/// weight, a large body with bent limbs would explain the clothes of a small one. A hull with holes
-/// says less.
+/// nearest surface voxel that is looked at, or 0 in flesh. A whole hull contains the body, so the
+/// bones of a right pose are hardly ever outside. With less weight, a large body with bent limbs
+/// would explain the clothes of a small one. A hull with holes says less.
 class FleshTerm {
  public:
   /// @param contacts  those that the pose is compared with; `evidence` is borrowed until the next

@@ -25,11 +25,12 @@ struct Fitness {
   Things things;                 ///< Those that the evidence shows.
   double unexplained_share = 0;  ///< Of the rays: no part is near.
   double surface_mm = 0;         ///< Mean distance of the voxels' surface.
-  double misfit = 0;             ///< Mean of the rays; see ContactNats.
+  double misfit = 0;             ///< 0 to 1; see ContactNats.
 
   /// How far the trunk is turned against the heading: 0 to 1, the opposite way.
   double backwards = 0;
 
+  /// Whether this may be a person who was just found; whether a tracked one is lost.
   bool IsCredible() const;
   bool IsLost() const;
   double& operator[](Term term) { return nats[static_cast<std::size_t>(term)]; }

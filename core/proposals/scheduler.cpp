@@ -69,7 +69,7 @@ std::vector<Hypothesis> Scheduler::FindAnybody(const Frame& frame,
     hypothesis.Fit(objective);
     if (!known) hypothesis.MeasureSizes(objective);
     HypothesisSet variants;
-    variants.Begin({std::move(hypothesis)}, std::nullopt);
+    variants.Begin({std::move(hypothesis)});
     TryAllLimbs(objective, variants);
     for (Hypothesis& variant : variants.all()) {
       if (!known) {

@@ -39,7 +39,7 @@ class Scheduler {
   };
   /// Finds hypotheses about whoever is there.
   /// @param known   sizes to keep; empty: they are measured.
-  /// @param scope  what the search covers.
+  /// @param scope   what the search covers.
   std::vector<Hypothesis> FindAnybody(const Frame& frame, const std::optional<BodySizes>& known,
                                       const SearchScope& scope);
   /// Proposes poses for a frame, where the believed hypothesis is in doubt.
