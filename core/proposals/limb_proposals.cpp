@@ -45,6 +45,19 @@ std::vector<JointAngles> LegStances(const BodyTable& table) {
   return stances;
 }
 
+Point EndOf(Segment limb_end) {
+  switch (limb_end) {
+    case Segment::kHandL:
+      return Point::kFingertipsL;
+    case Segment::kHandR:
+      return Point::kFingertipsR;
+    case Segment::kFootL:
+      return Point::kFootL;
+    default:
+      return Point::kFootR;
+  }
+}
+
 }  // namespace
 
 LimbProposals::LimbProposals(const BodyTable& table)
@@ -136,14 +149,12 @@ void LimbProposals::Exchanged(Objective& objective, const Hypothesis& present,
                               const LimbPair& limb_ends, std::vector<PoseState>& poses) {
   const auto [first, second] = limb_ends;
   const PoseState& pose = present.filter.pose();
-  limb_.Begin(objective, present.body, pose, second, second, present.things);
-  const Vector3 second_W = limb_.TipAt(pose);
+  const BodyPoints points_W = present.body.PointsAt(present.body.PostureAt(pose));
   limb_.Begin(objective, present.body, pose, first, second, present.things);
-  const Vector3 first_W = limb_.TipAt(pose);
-  FindTowards(first, pose, second_W);
+  FindTowards(first, pose, points_W.col(static_cast<int>(EndOf(second))));
   const PoseState half = candidates_.front().pose;
   limb_.Begin(objective, present.body, half, second, second, present.things);
-  FindTowards(second, half, first_W);
+  FindTowards(second, half, points_W.col(static_cast<int>(EndOf(first))));
   poses.push_back(candidates_.front().pose);
 }
 

@@ -224,6 +224,14 @@ class Followed : public FittedBody {
     set.Begin({HypothesisAt(pose)});
     return set;
   }
+  HypothesisSet RaisedIsBelieved(const PoseState& begin, const PoseState& offered) {
+    HypothesisSet set = Begin(begin);
+    set.Offer(objective_, offered);
+    for (int i = 0; i < 6; ++i) Follow(set, 1.0 / 30);
+    EXPECT_LT(Error(set.best().filter.pose(), raised_), 15);
+    EXPECT_GT(set.probability(), 0.95);
+    return set;
+  }
   void Follow(HypothesisSet& set, double dt_s) { set.Follow(objective_, evidence_.cloud, dt_s); }
 
   const PoseState hanging_ = Standing({});
@@ -232,21 +240,12 @@ class Followed : public FittedBody {
 
 TEST_F(Followed, APoseThatExplainsMoreIsBelieved) {
   See(raised_);
-  HypothesisSet set = Begin(hanging_);
-  set.Offer(objective_, raised_);
-  for (int i = 0; i < 6; ++i) Follow(set, 1.0 / 30);
-  EXPECT_LT(Error(set.best().filter.pose(), raised_), 15);
-  EXPECT_GT(set.probability(), 0.95);
+  RaisedIsBelieved(hanging_, raised_);
 }
 
 TEST_F(Followed, APoseThatExplainsLessIsNot) {
   See(raised_);
-  HypothesisSet set = Begin(raised_);
-  set.Offer(objective_, hanging_);
-  for (int i = 0; i < 6; ++i) Follow(set, 1.0 / 30);
-  EXPECT_LT(Error(set.best().filter.pose(), raised_), 15);
-  EXPECT_GT(set.probability(), 0.95);
-  EXPECT_EQ(set.all().size(), 1u);
+  EXPECT_EQ(RaisedIsBelieved(raised_, hanging_).all().size(), 1u);
 }
 
 TEST_F(Followed, APoseThatBecomesTheBelievedOneIsGivenUp) {

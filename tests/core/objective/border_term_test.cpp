@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <vector>
+
 #include "tests/support/fitted_body.h"
 #include "tests/support/slopes.h"
 
@@ -47,6 +49,18 @@ TEST_F(BorderTermTest, CostsMoreTheFartherFleshIsBeyondTheBorder) {
     EXPECT_GT(nats, last) << more_mm;
     last = nats;
   }
+}
+
+TEST_F(BorderTermTest, CamerasThatShowTheSameSayNoMoreThanOneOfThem) {
+  const PoseState truth = Standing({.arm_l = kArmOut});
+  SeeBorders(truth);
+  const PoseState pose = Off(truth);
+  const double once = At(body_, pose);
+  ASSERT_GT(once, 0);
+  const std::vector<Outline> borders = evidence_.borders;
+  evidence_.borders.insert(evidence_.borders.end(), borders.begin(), borders.end());
+  term_.SetEvidence(evidence_, 0);
+  EXPECT_NEAR(At(body_, pose), once, 1e-9);
 }
 
 TEST_F(BorderTermTest, OfSomeCapsulesIsAPartOfTheWhole) {

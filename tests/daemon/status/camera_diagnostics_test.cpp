@@ -59,24 +59,25 @@ TEST(CameraDiagnostics, OneLineNamesTheCamerasWithTheSameFault) {
                                      "their backgrounds: restore the light")));
 }
 
-TEST(CameraDiagnostics, NamesCamerasBeforeWhichClothesLookLikeTheWall) {
+// From 10 % on.
+void ExpectThatTheSecondIsNamed(std::optional<double> CameraHealth::*share, double high,
+                                const char* line) {
   ServiceReport report = GoodOfThree();
-  report.now.status.cameras[0].health.unknown_share = 0.09;
-  report.now.status.cameras[1].health.unknown_share = 0.4;
-  EXPECT_THAT(CameraDiagnostics(report),
-              ElementsAre(StartsWith("cam2 cannot tell 40 % of the people")));
-  report.now.status.cameras[1].health.unknown_share = 0.09;
+  report.now.status.cameras[0].health.*share = 0.09;
+  report.now.status.cameras[1].health.*share = high;
+  EXPECT_THAT(CameraDiagnostics(report), ElementsAre(StartsWith(line)));
+  report.now.status.cameras[1].health.*share = 0.09;
   EXPECT_THAT(CameraDiagnostics(report), ::testing::IsEmpty());
 }
 
+TEST(CameraDiagnostics, NamesCamerasBeforeWhichClothesLookLikeTheWall) {
+  ExpectThatTheSecondIsNamed(&CameraHealth::unknown_share, 0.4,
+                             "cam2 cannot tell 40 % of the people");
+}
+
 TEST(CameraDiagnostics, NamesCamerasThatMissPeople) {
-  ServiceReport report = GoodOfThree();
-  report.now.status.cameras[0].health.miss_rate = 0.09;
-  report.now.status.cameras[1].health.miss_rate = 0.25;
-  EXPECT_THAT(CameraDiagnostics(report),
-              ElementsAre(StartsWith("cam2 misses 25 % of the people whom the others show")));
-  report.now.status.cameras[1].health.miss_rate = 0.09;
-  EXPECT_THAT(CameraDiagnostics(report), ::testing::IsEmpty());
+  ExpectThatTheSecondIsNamed(&CameraHealth::miss_rate, 0.25,
+                             "cam2 misses 25 % of the people whom the others show");
 }
 
 }  // namespace
