@@ -4,6 +4,7 @@
 #include <Eigen/Geometry>
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -44,6 +45,12 @@ struct Sighting {
 
 using PointStds = Eigen::Matrix<double, 1, kPointCount>;
 
+/// Another pose that a person may have.
+struct RivalPose {
+  double probability = 0;                    ///< 0 to 1.
+  BodyPoints points_W = BodyPoints::Zero();  ///< As in CaptureResult.
+};
+
 /// The result of one frame set.
 struct CaptureResult {
   CaptureState state = CaptureState::kSearching;
@@ -52,9 +59,12 @@ struct CaptureResult {
   BodyPoints points_W = BodyPoints::Zero();
   /// Standard deviation of each, along its worst axis [mm].
   PointStds point_std_mm = PointStds::Zero();
-  double residual_mm = 0;     ///< Mean distance between measured and model points.
-  int voxels = 0;             ///< Of the person.
-  bool body_changed = false;  ///< The sizes in body() have changed in this frame.
+  /// Of the pose, 0 to 1. Empty: nobody is there, or the tracker cannot tell.
+  std::optional<double> probability;
+  std::optional<RivalPose> rival;  ///< The likeliest of the other poses, if there are any.
+  double residual_mm = 0;          ///< Mean distance between measured and model points.
+  int voxels = 0;                  ///< Of the person.
+  bool body_changed = false;       ///< The sizes in body() have changed in this frame.
 };
 
 /// The two stages of an update for profiling: from voxels to measured points, and from points to a

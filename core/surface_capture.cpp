@@ -217,6 +217,8 @@ class SurfaceCapture::Impl {
   }
 
   void Report(double dt_s) {
+    result_.probability.reset();
+    result_.rival.reset();
     if (hypotheses_.empty() || result_.state == CaptureState::kSearching) return;
     const BodyModel& body = hypotheses_.best().body;
     const PoseFilter& filter = hypotheses_.best().filter;
@@ -225,6 +227,15 @@ class SurfaceCapture::Impl {
     result_.pose = steady_.Follow(body, filter, result_.point_std_mm, dt_s);
     result_.points_W = body.PointsAt(body.PostureAt(result_.pose));
     result_.residual_mm = hypotheses_.best().fitness.surface_mm;
+    if (result_.state != CaptureState::kLost) ReportDoubt();
+  }
+
+  void ReportDoubt() {
+    result_.probability = hypotheses_.ProbabilityOf(hypotheses_.best());
+    if (const Hypothesis* const rival = hypotheses_.Rival()) {
+      result_.rival = {hypotheses_.ProbabilityOf(*rival),
+                       rival->body.PointsAt(rival->body.PostureAt(rival->filter.pose()))};
+    }
   }
 
   void MeasureUncertainty(const BodyModel& body, const PoseFilter& filter) {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 
 namespace mocap {
 namespace {
@@ -132,10 +133,15 @@ void HypothesisSet::Drop() {
                     hypotheses_.end());
 }
 
-double HypothesisSet::probability() const {
+double HypothesisSet::ProbabilityOf(const Hypothesis& one) const {
   double sum = 0;
-  for (const Hypothesis& hypothesis : hypotheses_) sum += std::exp(best().nats - hypothesis.nats);
+  for (const Hypothesis& other : hypotheses_) sum += std::exp(one.nats - other.nats);
   return 1 / sum;
+}
+
+const Hypothesis* HypothesisSet::Rival() const {
+  const auto others = std::span(hypotheses_).subspan(1);
+  return others.empty() ? nullptr : &*std::ranges::min_element(others, {}, &Hypothesis::nats);
 }
 
 }  // namespace mocap

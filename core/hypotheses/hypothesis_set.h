@@ -44,8 +44,10 @@ class HypothesisSet {
   /// The hypothesis that is believed. @pre not empty
   Hypothesis& best() { return hypotheses_.front(); }
   const Hypothesis& best() const { return hypotheses_.front(); }
-  /// Its probability, as far as the set has the right one.
-  double probability() const;
+  /// The probability of one of the set, as far as the set has the right one.
+  double ProbabilityOf(const Hypothesis& one) const;
+  /// The likeliest of the others. Null: there are none.
+  const Hypothesis* Rival() const;
   std::vector<Hypothesis>& all() { return hypotheses_; }
   const std::vector<Hypothesis>& all() const { return hypotheses_; }
   /// How much the last frame's -log p counts.

@@ -86,6 +86,19 @@ TEST_P(Capture, SaysThatNobodyIsThereAndMeasuresTheNextPersonAnew) {
   EXPECT_LT(capture_.body().sizes().Stature(), tall_mm - 300);
 }
 
+TEST_P(Capture, TellsHowSureItIsOfWhoeverIsSeen) {
+  EXPECT_FALSE(SeeNobody().probability);
+  const BodyModel person(table_, AverageSizes(1750));
+  for (int frame = 0; frame < 12; ++frame) {
+    const CaptureResult& result = See(person, frame);
+    ASSERT_TRUE(result.probability) << "frame " << frame;
+    const double rivals = result.rival ? result.rival->probability : 0;
+    EXPECT_GT(*result.probability, 0) << "frame " << frame;
+    EXPECT_LE(*result.probability + rivals, 1 + 1e-12) << "frame " << frame;
+  }
+  EXPECT_FALSE(SeeNobody().probability) << "the person is lost";
+}
+
 TEST_P(Capture, KeepsTheBodyOfAPersonWhoWasGoneForAMoment) {
   const BodyModel person(table_, AverageSizes(1750));
   for (int frame = 0; frame < 12; ++frame) See(person, frame);

@@ -88,15 +88,25 @@ TEST_F(Odds, GiveEachHypothesisItsProbability) {
     ASSERT_EQ(set.all().size(), kNats.size());
     for (std::size_t i = 0; i < kNats.size(); ++i)
       set.all()[i].nats = kNats[(first + i) % kNats.size()];
-    EXPECT_GT(set.probability(), 0);
-    EXPECT_LT(set.probability(), 1);
-    EXPECT_NEAR(set.probability(), std::exp(-kNats[first]) / whole, 1e-9);
-    sum += set.probability();
+    EXPECT_GT(set.ProbabilityOf(set.best()), 0);
+    EXPECT_LT(set.ProbabilityOf(set.best()), 1);
+    EXPECT_NEAR(set.ProbabilityOf(set.best()), std::exp(-kNats[first]) / whole, 1e-9);
+    sum += set.ProbabilityOf(set.best());
   }
   EXPECT_NEAR(sum, 1, 1e-9);
 }
 
-TEST_F(Odds, AreSureWhereThereIsOneHypothesis) { EXPECT_EQ(SetWith({}).probability(), 1); }
+TEST_F(Odds, AreSureWhereThereIsOneHypothesis) {
+  HypothesisSet set = SetWith({});
+  EXPECT_EQ(set.ProbabilityOf(set.best()), 1);
+  EXPECT_EQ(set.Rival(), nullptr);
+}
+
+TEST_F(Odds, NameTheLikeliestOfTheOthers) {
+  HypothesisSet set = SetWith({Aside(500, 2), Aside(1000, 1)});
+  ASSERT_NE(set.Rival(), nullptr);
+  EXPECT_EQ(set.Rival()->nats, 1);
+}
 
 TEST_F(Odds, StayFiniteHoweverLongSomebodyIsFollowed) {
   HypothesisSet set = SetWith({Aside(500, 1)});
@@ -104,7 +114,8 @@ TEST_F(Odds, StayFiniteHoweverLongSomebodyIsFollowed) {
   blind_.SetEvidence(evidence_, heading_);
   for (int i = 0; i < 200; ++i) set.Follow(blind_, evidence_.cloud, 1);
   EXPECT_EQ(set.best().nats, 0);
-  EXPECT_NEAR(set.probability(), 1 / (1 + std::exp(-1)), 0.01) << "they explain the same";
+  EXPECT_NEAR(set.ProbabilityOf(set.best()), 1 / (1 + std::exp(-1)), 0.01)
+      << "they explain the same";
 }
 
 TEST_F(Odds, ThatStayEvenChangeNoMind) {
@@ -112,7 +123,7 @@ TEST_F(Odds, ThatStayEvenChangeNoMind) {
   for (int i = 0; i < 60; ++i) set.Follow(blind_, evidence_.cloud, 1.0 / 30);
   ASSERT_EQ(set.all().size(), 2u);
   EXPECT_TRUE(IsAside(set, 0)) << "the other is likelier, but not by enough";
-  EXPECT_LT(set.probability(), 0.5) << "which is not hidden";
+  EXPECT_LT(set.ProbabilityOf(set.best()), 0.5) << "which is not hidden";
 }
 
 TEST_F(Odds, EndWhatIsHardlyPossible) {
@@ -169,10 +180,10 @@ TEST_F(Odds, AgainstAPoseStayWhenItIsProposedAgain) {
   set.Offer(blind_, turned);
   for (int i = 0; i < 9; ++i) set.Follow(blind_, evidence_.cloud, 0.01);
   ASSERT_EQ(set.all().size(), 2u);
-  const double probability = set.probability();
+  const double probability = set.ProbabilityOf(set.best());
   set.Offer(blind_, turned);
   EXPECT_EQ(set.all().size(), 2u);
-  EXPECT_GE(set.probability(), probability);
+  EXPECT_GE(set.ProbabilityOf(set.best()), probability);
 }
 
 TEST_F(Odds, AreIntegratedOverTimeAndNotOverFrames) {
@@ -229,7 +240,7 @@ class Followed : public FittedBody {
     set.Offer(objective_, offered);
     for (int i = 0; i < 6; ++i) Follow(set, 1.0 / 30);
     EXPECT_LT(Error(set.best().filter.pose(), raised_), 15);
-    EXPECT_GT(set.probability(), 0.95);
+    EXPECT_GT(set.ProbabilityOf(set.best()), 0.95);
     return set;
   }
   void Follow(HypothesisSet& set, double dt_s) { set.Follow(objective_, evidence_.cloud, dt_s); }
