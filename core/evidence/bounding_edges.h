@@ -4,7 +4,7 @@
 #include <span>
 #include <vector>
 
-#include "core/evidence/voxel_cloud.h"
+#include "core/reconstruction/carving/voxel_cloud.h"
 #include "core/reconstruction/silhouette/outline.h"
 
 namespace mocap {

@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "core/evidence/bounding_edges.h"
-#include "core/evidence/voxel_cloud.h"
 #include "core/motion_capture.h"
+#include "core/reconstruction/carving/voxel_cloud.h"
 
 namespace mocap {
 

@@ -5,7 +5,7 @@
 #include <optional>
 #include <vector>
 
-#include "core/evidence/voxel_cloud.h"
+#include "core/reconstruction/carving/voxel_cloud.h"
 #include "core/reconstruction/carving/voxel_pieces.h"
 
 namespace mocap {

@@ -9,7 +9,7 @@
 
 #include "core/body/body_model.h"
 #include "core/body/pose_state.h"
-#include "core/objective/update_equations.h"
+#include "core/body/update_equations.h"
 
 namespace mocap {
 

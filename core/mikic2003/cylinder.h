@@ -3,9 +3,9 @@
 
 #include <span>
 
-#include "core/evidence/voxel_cloud.h"
 #include "core/geometry.h"
 #include "core/mikic2003/labels.h"
+#include "core/reconstruction/carving/voxel_cloud.h"
 
 namespace mocap::mikic2003 {
 

@@ -4,9 +4,9 @@
 #include <optional>
 
 #include "core/body/body_sizes.h"
-#include "core/evidence/voxel_cloud.h"
 #include "core/geometry.h"
 #include "core/mikic2003/labels.h"
+#include "core/reconstruction/carving/voxel_cloud.h"
 
 namespace mocap::mikic2003 {
 

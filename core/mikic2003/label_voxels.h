@@ -6,8 +6,8 @@
 #include <span>
 
 #include "core/body/body_model.h"
-#include "core/evidence/voxel_cloud.h"
 #include "core/mikic2003/measured_points.h"
+#include "core/reconstruction/carving/voxel_cloud.h"
 
 namespace mocap::mikic2003 {
 

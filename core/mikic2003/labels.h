@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "core/body/body_part.h"
-#include "core/evidence/voxel_cloud.h"
 #include "core/geometry.h"
+#include "core/reconstruction/carving/voxel_cloud.h"
 
 namespace mocap::mikic2003 {
 

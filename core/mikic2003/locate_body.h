@@ -5,9 +5,9 @@
 #include <optional>
 
 #include "core/body/body_sizes.h"
-#include "core/evidence/voxel_cloud.h"
 #include "core/mikic2003/cylinder.h"
 #include "core/mikic2003/measured_points.h"
+#include "core/reconstruction/carving/voxel_cloud.h"
 
 namespace mocap::mikic2003 {
 

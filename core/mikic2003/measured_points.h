@@ -3,9 +3,9 @@
 
 #include <array>
 
-#include "core/evidence/voxel_cloud.h"
 #include "core/mikic2003/labels.h"
 #include "core/mikic2003/limbs.h"
+#include "core/reconstruction/carving/voxel_cloud.h"
 
 namespace mocap::mikic2003 {
 

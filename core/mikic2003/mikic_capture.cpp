@@ -7,12 +7,12 @@
 #include <optional>
 
 #include "core/errors.h"
-#include "core/evidence/voxel_cloud.h"
 #include "core/mikic2003/label_voxels.h"
 #include "core/mikic2003/locate_body.h"
 #include "core/mikic2003/orientation.h"
 #include "core/mikic2003/part_widths.h"
 #include "core/mikic2003/size_network.h"
+#include "core/reconstruction/carving/voxel_cloud.h"
 
 namespace mocap::mikic2003 {
 namespace {

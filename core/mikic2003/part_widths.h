@@ -2,8 +2,8 @@
 #pragma once
 
 #include "core/body/body_sizes.h"
-#include "core/evidence/voxel_cloud.h"
 #include "core/mikic2003/labels.h"
+#include "core/reconstruction/carving/voxel_cloud.h"
 
 namespace mocap::mikic2003 {
 

@@ -6,9 +6,9 @@
 #include <span>
 #include <vector>
 
+#include "core/body/segment_distances.h"
 #include "core/evidence/contact.h"
 #include "core/kernels/contacts.h"
-#include "core/objective/segment_distances.h"
 
 namespace mocap {
 

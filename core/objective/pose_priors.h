@@ -2,8 +2,8 @@
 #pragma once
 
 #include "core/body/body_model.h"
+#include "core/body/update_equations.h"
 #include "core/evidence/heading.h"
-#include "core/objective/update_equations.h"
 
 namespace mocap {
 

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "core/body/body_model.h"
-#include "core/objective/chain_equations.h"
+#include "core/body/chain_equations.h"
 
 namespace mocap {
 

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "core/body/body_model.h"
-#include "core/evidence/voxel_cloud.h"
+#include "core/reconstruction/carving/voxel_cloud.h"
 
 namespace mocap {
 

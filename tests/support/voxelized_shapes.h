@@ -3,7 +3,7 @@
 
 #include <functional>
 
-#include "core/evidence/voxel_cloud.h"
+#include "core/reconstruction/carving/voxel_cloud.h"
 
 namespace mocap {
 

@@ -4,8 +4,8 @@
 #include <optional>
 
 #include "core/body/body_model.h"
-#include "core/evidence/voxel_cloud.h"
 #include "core/mikic2003/orientation.h"
+#include "core/reconstruction/carving/voxel_cloud.h"
 #include "core/reconstruction/carving/voxel_grid.h"
 #include "tools/accuracy/true_subject.h"
 

@@ -7,8 +7,8 @@
 #include "config/load_config.h"
 #include "core/body/body_model.h"
 #include "core/body/stance.h"
-#include "core/evidence/voxel_cloud.h"
 #include "core/mikic2003/limbs.h"
+#include "core/reconstruction/carving/voxel_cloud.h"
 #include "tests/support/voxelized_shapes.h"
 
 namespace mocap::mikic2003 {

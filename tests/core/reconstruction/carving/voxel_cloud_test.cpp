@@ -1,4 +1,4 @@
-#include "core/evidence/voxel_cloud.h"
+#include "core/reconstruction/carving/voxel_cloud.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "core/evidence/voxel_cloud.h"
+#include "core/reconstruction/carving/voxel_cloud.h"
 
 #include <algorithm>
 #include <array>
@@ -11,27 +11,27 @@
 namespace mocap {
 namespace {
 
-using Word = std::uint64_t;
+using CloudWord = std::uint64_t;
 
 // A detached piece is kept if it is at least this share of the body and at most this far from it.
 constexpr double kPieceShare = 0.005;
 constexpr double kPieceReachMm = 150;
 
 // Bits [begin, begin + count) of a row with an empty word on each side.
-unsigned BitsOf(const Word* row, int begin, int count) {
+unsigned BitsOf(const CloudWord* row, int begin, int count) {
   // The shift rounds negative numbers down.
-  const Word* const word = row + (begin >> 6);
+  const CloudWord* const word = row + (begin >> 6);
   const int shift = begin & 63;
-  Word bits = word[0] >> shift;
+  CloudWord bits = word[0] >> shift;
   if (shift > 64 - count) bits |= word[1] << (64 - shift);
   return static_cast<unsigned>(bits) & ((1u << count) - 1);
 }
 
 // Bits [begin, end) of the word that starts at bit 64 i.
-Word MaskOf(int i, int begin, int end) {
-  Word mask = ~Word{0};
+CloudWord MaskOf(int i, int begin, int end) {
+  CloudWord mask = ~CloudWord{0};
   if (begin > i * 64) mask <<= begin - i * 64;
-  if (end < i * 64 + 64) mask &= ~Word{0} >> (i * 64 + 64 - end);
+  if (end < i * 64 + 64) mask &= ~CloudWord{0} >> (i * 64 + 64 - end);
   return mask;
 }
 
@@ -60,11 +60,11 @@ Vector3 VoxelCloud::Centroid() const {
 
 int VoxelCloud::IndexAt(const Eigen::Vector3i& cell) const {
   if (!HoldsCell(bits_, cell)) return -1;
-  const Word* const row = RowOf(cell.y(), cell.z());
+  const CloudWord* const row = RowOf(cell.y(), cell.z());
   const int word = cell.x() >> 6;
   int index = first_of_row_[static_cast<std::size_t>(cell.z()) * size_.y() + cell.y()];
   for (int i = 0; i < word; ++i) index += std::popcount(row[i]);
-  return index + std::popcount(row[word] & ((Word{1} << (cell.x() & 63)) - 1));
+  return index + std::popcount(row[word] & ((CloudWord{1} << (cell.x() & 63)) - 1));
 }
 
 void VoxelCloud::Build(const VoxelGrid& grid, const VoxelGrid& room) {
@@ -106,7 +106,7 @@ void VoxelCloud::CopyPerson(const VoxelGrid& grid) {
   }
   for (const VoxelPieces::Run& run : pieces_.runs()) {
     if (!is_kept_[run.piece]) continue;
-    Word* const row = &bits_[WordOf(run.j, run.k)];
+    CloudWord* const row = &bits_[WordOf(run.j, run.k)];
     for (int word = run.begin / 64; word <= (run.end - 1) / 64; ++word)
       row[word] |= MaskOf(word, run.begin, run.end);
   }
@@ -116,7 +116,7 @@ void VoxelCloud::AddOthers(const VoxelGrid& grid, const VoxelGrid& room) {
   solid_bits_ = bits_;
   for (int k = 0; k < size_.z(); ++k) {
     for (int j = 0; j < size_.y(); ++j) {
-      Word* const solid = &solid_bits_[WordOf(j, k)];
+      CloudWord* const solid = &solid_bits_[WordOf(j, k)];
       for (int i = 0; i < grid.words_per_row(); ++i)
         solid[i] |= room.row(j, k)[i] & ~grid.row(j, k)[i];
     }
@@ -131,15 +131,15 @@ void VoxelCloud::ListVoxels(const VoxelGrid& grid) {
   const std::ptrdiff_t above = WordOf(0, 1) - WordOf(0, 0);
   for (int k = 0; k < size_.z(); ++k) {
     for (int j = 0; j < size_.y(); ++j) {
-      const Word* const row = RowOf(j, k);
-      const Word* const solid = SolidRowOf(j, k);
+      const CloudWord* const row = RowOf(j, k);
+      const CloudWord* const solid = SolidRowOf(j, k);
       first_of_row_.push_back(size());
       for (int i = 0; i + 1 < words_per_row_; ++i) {
-        const Word* const here = solid + i;
-        const Word within = (here[0] << 1 | here[-1] >> 63) & (here[0] >> 1 | here[1] << 63) &
-                            here[words_per_row_] & here[-words_per_row_] & here[above] &
-                            here[-above];
-        for (Word bits = row[i]; bits != 0; bits &= bits - 1) {
+        const CloudWord* const here = solid + i;
+        const CloudWord within = (here[0] << 1 | here[-1] >> 63) & (here[0] >> 1 | here[1] << 63) &
+                                 here[words_per_row_] & here[-words_per_row_] & here[above] &
+                                 here[-above];
+        for (CloudWord bits = row[i]; bits != 0; bits &= bits - 1) {
           const int bit = std::countr_zero(bits);
           const int x = i * 64 + bit;
           const bool is_surface = (within >> bit & 1) == 0;
@@ -155,7 +155,7 @@ void VoxelCloud::ListVoxels(const VoxelGrid& grid) {
 }
 
 unsigned VoxelCloud::HeldFrom(const Places& places, int i, int end) const {
-  const Word* const first = RowOf(0, 0);
+  const CloudWord* const first = RowOf(0, 0);
   const kernels::BitPitch pitch{static_cast<int>(RowOf(1, 0) - first),
                                 static_cast<int>(RowOf(0, 1) - first)};
   const Vector3 &p = places.first, &step = places.step;
@@ -206,7 +206,7 @@ Vector3 VoxelCloud::NormalAt(const Voxel& voxel) const {
   Eigen::Vector3i inward = Eigen::Vector3i::Zero();
   for (int dz = -radius; dz <= radius; ++dz) {
     for (int dy = -radius; dy <= radius; ++dy) {
-      const Word* const row = SolidRowOf(voxel.cell.y() + dy, voxel.cell.z() + dz);
+      const CloudWord* const row = SolidRowOf(voxel.cell.y() + dy, voxel.cell.z() + dz);
       const unsigned bits = BitsOf(row, voxel.cell.x() - radius, 2 * radius + 1);
       const auto [count, places] = kBitSums[bits];
       inward += Eigen::Vector3i(places - radius * count, dy * count, dz * count);

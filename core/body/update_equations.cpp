@@ -1,4 +1,4 @@
-#include "core/objective/update_equations.h"
+#include "core/body/update_equations.h"
 
 #include <algorithm>
 

@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "core/body/body_model.h"
+#include "core/body/update_equations.h"
 #include "core/kernels/equations.h"
-#include "core/objective/update_equations.h"
 
 namespace mocap {
 

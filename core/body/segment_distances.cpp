@@ -1,4 +1,4 @@
-#include "core/objective/segment_distances.h"
+#include "core/body/segment_distances.h"
 
 #include <algorithm>
 #include <array>

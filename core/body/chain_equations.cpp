@@ -1,4 +1,4 @@
-#include "core/objective/chain_equations.h"
+#include "core/body/chain_equations.h"
 
 #include <algorithm>
 
