@@ -14,7 +14,7 @@ std::unique_ptr<MotionCapture> MakeMotionCapture(TrackerKind kind, const BodyTab
   RequireBodyOf(kind, table);
   switch (kind) {
     case TrackerKind::kSurface:
-      return std::make_unique<SurfaceCapture>(table);
+      return MakeSurfaceCapture(table);
     case TrackerKind::kMikic2003:
       return std::make_unique<mikic2003::MikicCapture>(table);
   }

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <memory>
 #include <optional>
 #include <utility>
 
@@ -17,18 +18,25 @@
 namespace mocap {
 namespace {
 
-// A child of 1.1 m has about 18 litres of flesh. Less is a stray shadow, or somebody at the edge of
-// the room.
-constexpr double kLeastLitres = 12;
-constexpr int kFramesToLose = 3;
-constexpr double kForgetAfterS = 1.0;
-// Sizes settle after this many well-fitted frames.
-constexpr int kFramesToRefine = 90;
-// Odds of 1000 to 1 make somebody a stranger where one person is expected: sizes that are measured
-// in the same frame fit better than known ones.
-constexpr double kStrangerNats = 6.9;
-constexpr double kSettledMm = 3;  // §8.1
-constexpr int kFramesToSettle = 6;
+// When a person's state changes.
+struct StateLimits {
+  double least_litres;    // Less is a stray shadow: a child of 1.1 m has about 18 litres of flesh.
+  int frames_to_lose;     // Of a bad fit, one after the other.
+  double forget_after_s;  // Since somebody was lost.
+  int frames_to_refine;   // Sizes settle after this many well-fitted frames.
+  double settled_mm;      // Change of the stature in a frame, §8.1,
+  int frames_to_settle;  // or after this many: the lengths of somebody who crouches stay uncertain.
+  // Odds of 1000 to 1 make somebody a stranger where one person is expected: sizes that are
+  // measured in the same frame fit better than known ones.
+  double stranger_nats;
+};
+constexpr StateLimits kLimits{.least_litres = 12,
+                              .frames_to_lose = 3,
+                              .forget_after_s = 1,
+                              .frames_to_refine = 90,
+                              .settled_mm = 3,
+                              .frames_to_settle = 6,
+                              .stranger_nats = 6.9};
 
 // Computes the covariance of a point of the body from that of the joints that move it.
 Matrix3 CovarianceOf(const BodyModel& body, const Posture& posture, Point point,
@@ -50,14 +58,13 @@ Matrix3 CovarianceOf(const BodyModel& body, const Posture& posture, Point point,
   return covariance;
 }
 
-}  // namespace
-
-class SurfaceCapture::Impl {
+class SurfaceCapture : public MotionCapture {
  public:
-  explicit Impl(const BodyTable& table) : scheduler_(table), nobody_(table, AverageSizes(1750)) {}
+  explicit SurfaceCapture(const BodyTable& table)
+      : scheduler_(table), nobody_(table, AverageSizes(1750)) {}
 
   const CaptureResult& Update(const Sighting& sighting, std::int64_t capture_ns,
-                              UpdateObserver* observer) {
+                              UpdateObserver* observer) override {
     // The clock may be set back.
     const std::int64_t passed_ns = last_ns_ ? std::max<std::int64_t>(0, capture_ns - *last_ns_) : 0;
     const double dt_s = static_cast<double>(passed_ns) * 1e-9;
@@ -66,7 +73,7 @@ class SurfaceCapture::Impl {
     if (observer) observer->OnStageEnd(UpdateStage::kLabel);
     result_.body_changed = false;
     result_.voxels = evidence_.cloud.size();
-    if (evidence_.cloud.volume_litres() < kLeastLitres) {
+    if (evidence_.cloud.volume_litres() < kLimits.least_litres) {
       NobodyThere(dt_s);
     } else {
       heading_ = heading_watch_.Look(evidence_.cloud, dt_s);
@@ -78,22 +85,27 @@ class SurfaceCapture::Impl {
     return result_;
   }
 
-  void StartOver(const std::optional<BodySizes>& given) {
-    given_ = given;
-    GiveUp();
-  }
+  void Forget() override { StartOver({}); }
+  void Expect(const BodySizes& sizes) override { StartOver(sizes); }
 
-  const CaptureResult& result() const { return result_; }
-  PoseState PredictedPose(std::int64_t capture_ns) const {
+  const CaptureResult& result() const override { return result_; }
+  PoseState PredictedPose(std::int64_t capture_ns) const override {
     // If a person was lost before the sizes were known, only the last pose is left.
     if (hypotheses_.empty()) return result_.pose;
     const std::int64_t ahead_ns = std::max<std::int64_t>(0, capture_ns - last_ns_.value());
     return hypotheses_.best().filter.PredictedPose(static_cast<double>(ahead_ns) * 1e-9);
   }
-  const BodyModel& body() const { return hypotheses_.empty() ? nobody_ : hypotheses_.best().body; }
-  int acquisition_frames() const { return acquisition_frames_; }
+  const BodyModel& body() const override {
+    return hypotheses_.empty() ? nobody_ : hypotheses_.best().body;
+  }
+  int acquisition_frames() const override { return acquisition_frames_; }
 
  private:
+  void StartOver(const std::optional<BodySizes>& given) {
+    given_ = given;
+    GiveUp();
+  }
+
   void NobodyThere(double dt_s) {
     if (result_.state == CaptureState::kTracking) Lose();
     if (result_.state == CaptureState::kLost) {
@@ -113,7 +125,7 @@ class SurfaceCapture::Impl {
   // A lost person is forgotten after a while.
   void Await(double dt_s) {
     lost_s_ += CountedS(dt_s);
-    if (lost_s_ >= kForgetAfterS) GiveUp();
+    if (lost_s_ >= kLimits.forget_after_s) GiveUp();
   }
 
   void GiveUp() {
@@ -167,7 +179,7 @@ class SurfaceCapture::Impl {
         scheduler_.FindAnybody(Frame(), std::nullopt, {effort});
     if (strangers.empty()) return false;
     const double lead = known.fitness.Sum() - strangers.front().fitness.Sum();
-    return kFrameWorth * lead > kStrangerNats;
+    return kFrameWorth * lead > kLimits.stranger_nats;
   }
 
   void Follow(double dt_s) {
@@ -177,9 +189,8 @@ class SurfaceCapture::Impl {
     RefineSizes();
     if (result_.state == CaptureState::kAcquiring) {
       ++frames_acquiring_;
-      // The lengths of somebody who crouches stay uncertain: tracking refines them later.
       const double change_mm = std::abs(body().sizes().Stature() - before.Stature());
-      if (change_mm < kSettledMm || frames_acquiring_ >= kFramesToSettle) {
+      if (change_mm < kLimits.settled_mm || frames_acquiring_ >= kLimits.frames_to_settle) {
         result_.state = CaptureState::kTracking;
         acquisition_frames_ = frames_acquiring_;
       }
@@ -193,20 +204,21 @@ class SurfaceCapture::Impl {
 
   void RefineSizes() {
     for (Hypothesis& hypothesis : hypotheses_.all()) {
-      if (given_ || !hypothesis.sizes || hypothesis.sizes->frames() >= kFramesToRefine) continue;
+      if (given_ || !hypothesis.sizes || hypothesis.sizes->frames() >= kLimits.frames_to_refine)
+        continue;
       if (hypothesis.fitness.IsCredible()) hypothesis.RefineSizes(objective_);
     }
   }
 
   bool SizesAreKnown() const {
     const auto& sizes = hypotheses_.best().sizes;
-    return given_ || !sizes || sizes->frames() >= kFramesToRefine;
+    return given_ || !sizes || sizes->frames() >= kLimits.frames_to_refine;
   }
 
   void NoticeLoss() {
     const Hypothesis& best = hypotheses_.best();
     bad_frames_ = best.fitness.IsLost() ? bad_frames_ + 1 : 0;
-    if (bad_frames_ < kFramesToLose && best.filter.is_sound()) return;
+    if (bad_frames_ < kLimits.frames_to_lose && best.filter.is_sound()) return;
     Lose();
     // Sizes from few frames may be the cause of a bad fit.
     if (!SizesAreKnown()) {
@@ -271,20 +283,10 @@ class SurfaceCapture::Impl {
   int bad_frames_ = 0;
 };
 
-SurfaceCapture::SurfaceCapture(const BodyTable& table) : impl_(std::make_unique<Impl>(table)) {}
-SurfaceCapture::~SurfaceCapture() = default;
+}  // namespace
 
-const CaptureResult& SurfaceCapture::Update(const Sighting& sighting, std::int64_t capture_ns,
-                                            UpdateObserver* observer) {
-  return impl_->Update(sighting, capture_ns, observer);
+std::unique_ptr<MotionCapture> MakeSurfaceCapture(const BodyTable& table) {
+  return std::make_unique<SurfaceCapture>(table);
 }
-void SurfaceCapture::Forget() { impl_->StartOver({}); }
-void SurfaceCapture::Expect(const BodySizes& sizes) { impl_->StartOver(sizes); }
-const CaptureResult& SurfaceCapture::result() const { return impl_->result(); }
-PoseState SurfaceCapture::PredictedPose(std::int64_t capture_ns) const {
-  return impl_->PredictedPose(capture_ns);
-}
-const BodyModel& SurfaceCapture::body() const { return impl_->body(); }
-int SurfaceCapture::acquisition_frames() const { return impl_->acquisition_frames(); }
 
 }  // namespace mocap

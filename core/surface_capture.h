@@ -7,24 +7,8 @@
 
 namespace mocap {
 
-/// Acquires a body, fits it to the surface in every frame, loses it and acquires it again.
-class SurfaceCapture : public MotionCapture {
- public:
-  explicit SurfaceCapture(const BodyTable& table);
-  ~SurfaceCapture() override;
-
-  const CaptureResult& Update(const Sighting& sighting, std::int64_t capture_ns,
-                              UpdateObserver* observer) override;
-  void Forget() override;
-  void Expect(const BodySizes& sizes) override;
-  const CaptureResult& result() const override;
-  PoseState PredictedPose(std::int64_t capture_ns) const override;
-  const BodyModel& body() const override;
-  int acquisition_frames() const override;
-
- private:
-  class Impl;
-  std::unique_ptr<Impl> impl_;
-};
+/// Creates the default tracker. It acquires a body, fits it to the surface in every frame, loses it
+/// and acquires it again.
+std::unique_ptr<MotionCapture> MakeSurfaceCapture(const BodyTable& table);
 
 }  // namespace mocap

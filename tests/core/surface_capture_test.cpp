@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -56,8 +57,8 @@ class Capture : public ::testing::TestWithParam<std::string> {
   std::int64_t NextNs() { return now_ns_ += kFrameNs; }
 
   BodyTable table_ = LoadBodyTable(GetParam());
-  SurfaceCapture surface_capture_{table_};
-  MotionCapture& capture_ = surface_capture_;
+  const std::unique_ptr<MotionCapture> owned_ = MakeSurfaceCapture(table_);
+  MotionCapture& capture_ = *owned_;
   std::int64_t now_ns_ = 1'000'000'000'000;
 };
 
@@ -122,13 +123,12 @@ TEST_P(Capture, MeasuresWhoeverIsThereInsteadOfAPersonWhoWasLost) {
 
 TEST_P(Capture, GivesTheSameBitsForTheSameVoxels) {
   const BodyModel person(table_, AverageSizes(1600));
-  SurfaceCapture another(table_);
-  MotionCapture& again = another;
+  const std::unique_ptr<MotionCapture> again = MakeSurfaceCapture(table_);
   for (int frame = 0; frame < 8; ++frame) {
     const VoxelGrid grid = Voxelize(person, Stroll(person, frame), 25);
     const std::int64_t now_ns = NextNs();
     const CaptureResult first = capture_.Update({grid, {}}, now_ns);
-    const CaptureResult second = again.Update({grid, {}}, now_ns);
+    const CaptureResult second = again->Update({grid, {}}, now_ns);
     ASSERT_EQ(first.state, second.state);
     ASSERT_EQ(first.points_W, second.points_W);
     ASSERT_EQ(first.point_std_mm, second.point_std_mm);
@@ -139,12 +139,11 @@ TEST(GivenSizes, HoldForThePersonWhomTheyFitAlone) {
   const BodyTable table = LoadBodyTable("full");
   const BodyModel adult(table, AverageSizes(1900));
   const RoundStudio studio;
-  SurfaceCapture surface_capture(table);
-  MotionCapture& capture = surface_capture;
-  capture.Expect(AverageSizes(1600));
+  const std::unique_ptr<MotionCapture> capture = MakeSurfaceCapture(table);
+  capture->Expect(AverageSizes(1600));
   for (int frame = 0; frame < 4; ++frame) {
     const auto [hull, outlines] = studio.Carve(adult, Stroll(adult, frame));
-    EXPECT_NE(capture.Update({hull, outlines}, frame * kFrameNs).state, CaptureState::kTracking);
+    EXPECT_NE(capture->Update({hull, outlines}, frame * kFrameNs).state, CaptureState::kTracking);
   }
 }
 
@@ -154,7 +153,7 @@ TEST(DefaultBody, IsFoundThoughTwoCamerasDoNotSeeItsLegs) {
   const BodyTable table = LoadBodyTable("full");
   const BodyModel person(table, AverageSizes(1750));
   const RoundStudio studio;
-  SurfaceCapture capture(table);
+  const std::unique_ptr<MotionCapture> capture = MakeSurfaceCapture(table);
   for (int frame = 0; frame < 8; ++frame) {
     const PoseState pose = Stroll(person, frame);
     std::vector<PosedCapsule> all, trunk;
@@ -166,7 +165,7 @@ TEST(DefaultBody, IsFoundThoughTwoCamerasDoNotSeeItsLegs) {
                                     seen.hull.end_W() + Vector3(300, 300, 0));
     const Eigen::AlignedBox3d to_floor_W(Vector3(box_W.min().x(), box_W.min().y(), 0), box_W.max());
     const CaptureResult& result =
-        capture.Update({seen.hull, seen.outlines, to_floor_W}, (frame + 1) * kFrameNs, nullptr);
+        capture->Update({seen.hull, seen.outlines, to_floor_W}, (frame + 1) * kFrameNs, nullptr);
     if (frame < 6) continue;
     ASSERT_EQ(result.state, CaptureState::kTracking);
     EXPECT_LT(MeanError(person, pose, result), 50);
@@ -182,16 +181,15 @@ TEST(DefaultBody, IsFollowedWithoutAllocatingOnceItRuns) {
   for (int frame = 0; frame < 4; ++frame) {
     seen.push_back(studio.Carve(person, Stroll(person, frame)));
   }
-  SurfaceCapture surface_capture(table);
-  MotionCapture& capture = surface_capture;
+  const std::unique_ptr<MotionCapture> capture = MakeSurfaceCapture(table);
   std::int64_t now_ns = 0;
   const auto walk_to_and_fro = [&] {
     for (const int frame : {0, 1, 2, 3, 2, 1}) {
-      capture.Update({seen[frame].hull, seen[frame].outlines}, now_ns += kFrameNs);
+      capture->Update({seen[frame].hull, seen[frame].outlines}, now_ns += kFrameNs);
     }
   };
   for (int i = 0; i < 4; ++i) walk_to_and_fro();
-  EXPECT_GT(capture.acquisition_frames(), 0);
+  EXPECT_GT(capture->acquisition_frames(), 0);
   const std::int64_t before = Allocations();
   EXPECT_GT(before, 0);
   walk_to_and_fro();

@@ -32,7 +32,7 @@ class Room : public ::testing::Test {
   explicit Room(int most = 4, SideSearches* side = nullptr, double radius_mm = 3200)
       : studio_(radius_mm), people_([this] { return Make(); }, {.most = most, .side = side}) {}
 
-  std::unique_ptr<MotionCapture> Make() const { return std::make_unique<SurfaceCapture>(table_); }
+  std::unique_ptr<MotionCapture> Make() const { return MakeSurfaceCapture(table_); }
 
   Someone At(double x_mm, double y_mm, double stature_mm, int frame = 0) const {
     const BodyModel body(table_, AverageSizes(stature_mm));

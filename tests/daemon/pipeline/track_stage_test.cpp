@@ -64,9 +64,8 @@ class TrackStageTest : public ::testing::Test {
   LastNames sink_;
   StageRecorders recorders_;
   const std::shared_ptr<SubjectPosition> position_ = std::make_shared<SubjectPosition>();
-  TrackStage stage_{
-      PeopleCapture([this] { return std::make_unique<SurfaceCapture>(table_); }, {.most = 4}),
-      LatencyOrigin::kArrival, sink_, recorders_, position_};
+  TrackStage stage_{PeopleCapture([this] { return MakeSurfaceCapture(table_); }, {.most = 4}),
+                    LatencyOrigin::kArrival, sink_, recorders_, position_};
   std::int64_t now_ns_ = 1'000'000'000'000;
 };
 
