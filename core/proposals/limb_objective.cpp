@@ -8,9 +8,12 @@ namespace mocap {
 namespace {
 
 // A limb may move this far from where it starts; the rest hardly moves.
-constexpr double kLimbStd_rad = 0.5;
-constexpr double kRestStd_mm = 0.1, kRestStd_rad = 1e-3;
-constexpr Iterations kLimbIterations{.usual = 5, .most = 5};
+struct LimbFreedom {
+  double limb_rad, rest_mm, rest_rad;
+  Iterations iterations;
+};
+constexpr LimbFreedom kFreedom{
+    .limb_rad = 0.5, .rest_mm = 0.1, .rest_rad = 1e-3, .iterations = {.usual = 5, .most = 5}};
 
 void ListRows(const BodyTable& table, Segment limb_end, std::vector<int>& rows) {
   const int trunk = table.carrier[static_cast<int>(Segment::kPelvis)];
@@ -71,12 +74,12 @@ void LimbObjective::Linearize(const PoseState& pose, UpdateEquations& equations)
 
 void LimbObjective::Refine(PoseState& pose) {
   PoseFilter filter{MotionNoise{}};
-  PoseStep std = PoseStep::Constant(pose.dof(), kRestStd_rad);
-  std.head<3>().setConstant(kRestStd_mm);
-  for (const int row : rows_) std[kTorsoDof + row] = kLimbStd_rad;
+  PoseStep std = PoseStep::Constant(pose.dof(), kFreedom.rest_rad);
+  std.head<3>().setConstant(kFreedom.rest_mm);
+  for (const int row : rows_) std[kTorsoDof + row] = kFreedom.limb_rad;
   filter.Reset(pose, std);
   filter.Draw([this](const PoseState& at, UpdateEquations& equations) { Linearize(at, equations); },
-              kLimbIterations);
+              kFreedom.iterations);
   for (const int row : rows_) pose.theta[row] = filter.pose().theta[row];
 }
 

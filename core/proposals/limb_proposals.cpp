@@ -7,13 +7,15 @@
 namespace mocap {
 namespace {
 
-// Stances of a limb whose bones lie in flesh best.
-constexpr std::size_t kInFlesh = 40;
-// Stances of a limb to refine, with ends at least this far apart.
-constexpr std::size_t kRefined = 8, kSecondRefined = 4;
-constexpr double kApart_mm = 150;
-// Of a single limb, and of the first limb of a pair.
-constexpr std::size_t kProposed = 2, kFirsts = 2;
+// How many stances of a limb are looked at, one step after the other.
+struct LimbEffort {
+  std::size_t in_flesh;                 // Those whose bones lie in flesh best are compared,
+  std::size_t refined, second_refined;  // the best of them refined,
+  std::size_t proposed, firsts;         // and these left: of a single limb; of a pair's first.
+  double apart_mm;                      // At least, between the limb's ends.
+};
+constexpr LimbEffort kEffort{
+    .in_flesh = 40, .refined = 8, .second_refined = 4, .proposed = 2, .firsts = 2, .apart_mm = 150};
 
 std::vector<JointAngles> ArmStances(const BodyTable& table) {
   std::vector<JointAngles> stances;
@@ -86,8 +88,9 @@ void LimbProposals::KeepDistinct(std::size_t count) {
   std::erase_if(candidates_, [&](const Candidate& candidate) {
     if (tips_W_.size() == count) return true;
     const Vector3 tip_W = limb_.TipAt(candidate.pose);
-    const bool is_known = std::ranges::any_of(
-        tips_W_, [&](const Vector3& other_W) { return (other_W - tip_W).norm() < kApart_mm; });
+    const bool is_known = std::ranges::any_of(tips_W_, [&](const Vector3& other_W) {
+      return (other_W - tip_W).norm() < kEffort.apart_mm;
+    });
     if (!is_known) tips_W_.push_back(tip_W);
     return is_known;
   });
@@ -104,7 +107,7 @@ void LimbProposals::Refine() {
 void LimbProposals::FindBest(Segment limb_end, const PoseState& pose, std::size_t refined,
                              std::size_t count) {
   Rank(StancesOf(limb_end), pose, [&](const PoseState& at) { return limb_.FleshAt(at); });
-  candidates_.resize(std::min(candidates_.size(), kInFlesh));
+  candidates_.resize(std::min(candidates_.size(), kEffort.in_flesh));
   for (Candidate& candidate : candidates_) candidate.nats = limb_.At(candidate.pose);
   std::ranges::sort(candidates_, {}, &Candidate::nats);
   KeepDistinct(refined);
@@ -115,7 +118,7 @@ void LimbProposals::FindBest(Segment limb_end, const PoseState& pose, std::size_
 void LimbProposals::FindTowards(Segment limb_end, const PoseState& pose, const Vector3& p_WQ) {
   Rank(StancesOf(limb_end), pose,
        [&](const PoseState& at) { return (limb_.TipAt(at) - p_WQ).norm(); });
-  candidates_.resize(std::min(candidates_.size(), kFirsts));
+  candidates_.resize(std::min(candidates_.size(), kEffort.firsts));
   Refine();
 }
 
@@ -124,11 +127,11 @@ void LimbProposals::Elsewhere(Objective& objective, const Hypothesis& present, S
   const PoseState& pose = present.filter.pose();
   limb_.Begin(objective, present.body, pose, limb_end, limb_end, present.things);
   const Vector3 tip_W = limb_.TipAt(pose);
-  FindBest(limb_end, pose, kRefined, kProposed + 1);
+  FindBest(limb_end, pose, kEffort.refined, kEffort.proposed + 1);
   std::erase_if(candidates_, [&](const Candidate& candidate) {
-    return (limb_.TipAt(candidate.pose) - tip_W).norm() < kApart_mm / 2;
+    return (limb_.TipAt(candidate.pose) - tip_W).norm() < kEffort.apart_mm / 2;
   });
-  candidates_.resize(std::min(candidates_.size(), kProposed));
+  candidates_.resize(std::min(candidates_.size(), kEffort.proposed));
   for (const Candidate& candidate : candidates_) poses.push_back(candidate.pose);
 }
 
@@ -136,11 +139,11 @@ void LimbProposals::Both(Objective& objective, const Hypothesis& present, const 
                          std::vector<PoseState>& poses) {
   const auto [first, second] = limb_ends;
   limb_.Begin(objective, present.body, present.filter.pose(), first, second, present.things);
-  FindBest(first, present.filter.pose(), kRefined, kFirsts);
+  FindBest(first, present.filter.pose(), kEffort.refined, kEffort.firsts);
   std::swap(firsts_, candidates_);
   for (const Candidate& candidate : firsts_) {
     limb_.Begin(objective, present.body, candidate.pose, second, second, present.things);
-    FindBest(second, candidate.pose, kSecondRefined, 1);
+    FindBest(second, candidate.pose, kEffort.second_refined, 1);
     poses.push_back(candidates_.front().pose);
   }
 }

@@ -6,33 +6,45 @@
 namespace mocap {
 namespace {
 
-// Evaluations of the objective per second of capture time, and the most that are saved up.
-constexpr double kPerS = 3000;
-constexpr double kMostSaved = kPerS / 3;
-// Searches after the first are limited to about the available time.
-constexpr double kSearchesPerS = 9;
-constexpr double kLeastEffort = 0.1;
-// Share of the rays that no part explains.
-constexpr double kUnexplainedShare = 0.005;
-// Rest after a round; it doubles as long as rounds are in vain.
-constexpr double kShortestRest_s = 0.1, kLongestRest_s = 0.4;
-constexpr double kHandsMoved_mm = 100;
+// What may be spent, and where it goes.
+struct Budget {
+  double per_s;                         // Evaluations of the objective per second of capture time,
+  double most_saved;                    // and the most that are saved up.
+  double searches_per_s, least_effort;  // Searches after the first, within about the time there is.
+  // A round is worth its cost from this share of rays on that no part explains. Rests double
+  // between these limits as long as rounds are in vain.
+  double unexplained_share, shortest_rest_s, longest_rest_s;
+  double hands_moved_mm;  // Until exchanged arms are tried again.
+  // Candidates of a search that are tracked with all limbs: at full effort, and otherwise.
+  std::size_t finalists, few_finalists;
+  // Of poses within 40 mm of the truth, one in a hundred has a greater misfit.
+  double doubtful_misfit;
+};
+constexpr Budget kBudget{.per_s = 3000,
+                         .most_saved = 1000,
+                         .searches_per_s = 9,
+                         .least_effort = 0.1,
+                         .unexplained_share = 0.005,
+                         .shortest_rest_s = 0.1,
+                         .longest_rest_s = 0.4,
+                         .hands_moved_mm = 100,
+                         .finalists = 3,
+                         .few_finalists = 1,
+                         .doubtful_misfit = 0.26};
 constexpr std::array kPairs = {kArms, kLegs};
 constexpr std::size_t kWholeStances = kLimbEnds.size() + kPairs.size();
-// Candidates of a search that are tracked with all limbs: at full effort, and otherwise.
-constexpr std::size_t kFinalists = 3, kFewFinalists = 1;
-// Of poses within 40 mm of the truth, one in a hundred has a greater misfit.
-constexpr double kDoubtful = 0.26;
 
 // Whether a share of the rays has grown by more than the noise of independent rays.
 bool IsClearlyMore(double share, double before) {
   const double std = std::sqrt(before * (1 - before) / kIndependentRays);
-  return share > before + kUnexplainedShare + 2 * std;
+  return share > before + kBudget.unexplained_share + 2 * std;
 }
 
 }  // namespace
 
-double EffortWithin(double dt_s) { return std::clamp(kSearchesPerS * dt_s, kLeastEffort, 1.0); }
+double EffortWithin(double dt_s) {
+  return std::clamp(kBudget.searches_per_s * dt_s, kBudget.least_effort, 1.0);
+}
 
 void Scheduler::StartOver() {
   strangers_.StartOver();
@@ -61,7 +73,7 @@ std::vector<Hypothesis> Scheduler::FindAnybody(const Frame& frame,
   const std::vector<StanceCandidate>& candidates =
       search.Find(frame.evidence, frame.heading, scope, objective);
   const std::size_t finalists =
-      std::min(candidates.size(), scope.effort < 1 ? kFewFinalists : kFinalists);
+      std::min(candidates.size(), scope.effort < 1 ? kBudget.few_finalists : kBudget.finalists);
   std::vector<Hypothesis> found;
   for (std::size_t i = 0; i < finalists; ++i) {
     Hypothesis hypothesis(search.body(candidates[i].body), candidates[i].pose, !known);
@@ -100,7 +112,7 @@ void Scheduler::TryLimbs(std::size_t which, Objective& objective, HypothesisSet&
 }
 
 void Scheduler::TryAllLimbs(Objective& objective, HypothesisSet& hypotheses) {
-  const bool is_explained = hypotheses.best().fitness.unexplained_share < kUnexplainedShare;
+  const bool is_explained = hypotheses.best().fitness.unexplained_share < kBudget.unexplained_share;
   for (std::size_t which = 0; which < kWholeStances; ++which) {
     const bool is_first_pair = which == kLimbEnds.size();
     if (!is_explained || is_first_pair) TryLimbs(which, objective, hypotheses);
@@ -130,7 +142,7 @@ void Scheduler::Try(const Frame& frame, HypothesisSet& hypotheses, bool sizes_ar
                     double dt_s) {
   Objective& objective = frame.objective;
   rest_s_ -= dt_s;
-  allowance_ = std::min(allowance_ + kPerS * dt_s, kMostSaved);
+  allowance_ = std::min(allowance_ + kBudget.per_s * dt_s, kBudget.most_saved);
   double spent = objective.evaluations();
   if (HandsMeetAnew(hypotheses.best())) {
     limbs_.Exchanged(objective, hypotheses.best(), kArms, poses_);
@@ -141,8 +153,8 @@ void Scheduler::Try(const Frame& frame, HypothesisSet& hypotheses, bool sizes_ar
   while (allowance_ > 0) {
     const Fitness fitness = hypotheses.best().fitness;
     if (rest_s_ > 0 && !IsClearlyMore(fitness.unexplained_share, vain_share_)) return;
-    const bool is_doubtful = fitness.misfit > kDoubtful || fitness.backwards > 0.5;
-    const bool is_unexplained = fitness.unexplained_share >= kUnexplainedShare;
+    const bool is_doubtful = fitness.misfit > kBudget.doubtful_misfit || fitness.backwards > 0.5;
+    const bool is_unexplained = fitness.unexplained_share >= kBudget.unexplained_share;
     if (next_ < kWholeStances && is_unexplained) TryLimbs(next_, objective, hypotheses);
     if (next_ == kWholeStances && is_doubtful) TryStances(frame, hypotheses, sizes_are_known, dt_s);
     if (next_++ == kWholeStances) {
@@ -150,8 +162,9 @@ void Scheduler::Try(const Frame& frame, HypothesisSet& hypotheses, bool sizes_ar
       const bool was_in_vain = hypotheses.changes() == changes_before_;
       changes_before_ = hypotheses.changes();
       vain_share_ = fitness.unexplained_share;
-      rest_after_s_ = was_in_vain ? std::clamp(2 * rest_after_s_, kShortestRest_s, kLongestRest_s)
-                                  : kShortestRest_s;
+      rest_after_s_ = was_in_vain ? std::clamp(2 * rest_after_s_, kBudget.shortest_rest_s,
+                                               kBudget.longest_rest_s)
+                                  : kBudget.shortest_rest_s;
       rest_s_ = rest_after_s_;
     }
     const double now = objective.evaluations();
@@ -170,7 +183,7 @@ bool Scheduler::HandsMeetAnew(const Hypothesis& believed) {
     return false;
   }
   const Vector3 apart_T = pose.X_WT.R.transpose() * apart_W;
-  if (hands_met_T_ && (apart_T - *hands_met_T_).norm() < kHandsMoved_mm) return false;
+  if (hands_met_T_ && (apart_T - *hands_met_T_).norm() < kBudget.hands_moved_mm) return false;
   hands_met_T_ = apart_T;
   return true;
 }

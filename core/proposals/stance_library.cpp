@@ -19,38 +19,36 @@ struct LeaningStance {
   double lean_deg = 0;  ///< Forward lean of the trunk.
 };
 
-constexpr ArmStance kForwardArm{.raise = -30, .forward = 70};
-constexpr ArmStance kBentArm{.forward = 30, .elbow = 90};
-constexpr ArmStance kHandAtFace{.raise = -50, .forward = 60, .elbow = 130};
-constexpr ArmStance kForearmOnThigh{.elbow = 60};
-constexpr LegStance kFrontLeg{.hip = 30, .knee = 15};
-constexpr LegStance kBackLeg{.hip = -10, .knee = 25};
-constexpr LegStance kRaisedLeg{.hip = 80, .knee = 80};
-constexpr LegStance kSeatedLeg{.hip = 85, .knee = 85};
-constexpr LegStance kSquattingLeg{.hip = 110, .spread = 15, .knee = 120};
-constexpr LegStance kBowingLeg{.hip = 65, .knee = 15};
-
 constexpr Stance With(const ArmStance& arms) { return {.arm_l = arms, .arm_r = arms}; }
 constexpr Stance On(const LegStance& left, const LegStance& right) {
   return {.leg_l = left, .leg_r = right};
 }
+constexpr Stance Seated(const ArmStance& arms) {
+  constexpr LegStance level{.hip = 85, .knee = 85};
+  return {arms, arms, level, level};
+}
+constexpr Stance Stepping(bool left_is_in_front) {
+  constexpr LegStance front{.hip = 30, .knee = 15}, back{.hip = -10, .knee = 25};
+  return left_is_in_front ? On(front, back) : On(back, front);
+}
+constexpr Stance Symmetric(const LegStance& leg) { return On(leg, leg); }
 
 constexpr std::array<LeaningStance, 15> kStances = {{
-    {Stance{}},                     // at ease
-    {With({.raise = -45})},         // arms half down
-    {With({.raise = 0})},           // arms out
-    {With({.raise = 75})},          // arms up
-    {With(kForwardArm)},            // arms before the body
-    {With(kBentArm)},               // hands before the chest
-    {With(kHandAtFace)},            // hands before the face
-    {On(kFrontLeg, kBackLeg)},      // stepping
-    {On(kBackLeg, kFrontLeg)},      // stepping
-    {On(kRaisedLeg, LegStance{})},  // on one leg
-    {On(LegStance{}, kRaisedLeg)},  // on one leg
-    {On(kSeatedLeg, kSeatedLeg)},   // seated
-    {{kForearmOnThigh, kForearmOnThigh, kSeatedLeg, kSeatedLeg}},
-    {On(kSquattingLeg, kSquattingLeg), 35},  // crouching
-    {On(kBowingLeg, kBowingLeg), 60},        // bent forward
+    {Stance{}},                                           // at ease
+    {With({.raise = -45})},                               // arms half down
+    {With({.raise = 0})},                                 // arms out
+    {With({.raise = 75})},                                // arms up
+    {With({.raise = -30, .forward = 70})},                // arms before the body
+    {With({.forward = 30, .elbow = 90})},                 // hands before the chest
+    {With({.raise = -50, .forward = 60, .elbow = 130})},  // hands before the face
+    {Stepping(true)},
+    {Stepping(false)},
+    {On({.hip = 80, .knee = 80}, LegStance{})},  // on one leg
+    {On(LegStance{}, {.hip = 80, .knee = 80})},  // on one leg
+    {Seated({})},
+    {Seated({.elbow = 60})},                                   // forearms on thighs
+    {Symmetric({.hip = 110, .spread = 15, .knee = 120}), 35},  // crouching
+    {Symmetric({.hip = 65, .knee = 15}), 60},                  // bent forward
 }};
 
 // Centroid of a posed body's capsules. Overlaps count twice.

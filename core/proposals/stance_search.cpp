@@ -10,34 +10,48 @@ namespace {
 
 // Bodies of strangers. Clothes and hulls make everybody appear stouter. With realistic widths,
 // people would be taken for taller ones.
-constexpr double kSmallestMm = 1080;
-constexpr double kLargestMm = 2080;
-constexpr double kStatureStep = 1.06;
+struct Statures {
+  double smallest_mm, largest_mm;
+  double step;  // Ratio of two that follow each other.
+  int coarse;   // Every third is tried first; then its neighbours.
+};
+constexpr Statures kStatures{.smallest_mm = 1080, .largest_mm = 2080, .step = 1.06, .coarse = 3};
+// Factors of an average person's widths. The second is tried first.
 constexpr std::array<double, 4> kBuilds = {1, 1.15, 1.32, 1.52};
-// Every third stature is tried, with this build; then its neighbours.
-constexpr int kCoarseStep = 3;
 constexpr int kCoarseBuild = 1;
-// After the other builds comes this one in a skirt, with its drape as shares of the stature. It is
-// only tried as a neighbour: in a skirt, who faces backwards looks nearly the same.
+// After the other builds comes this one in a skirt. It is only tried as a neighbour: in a skirt,
+// who faces backwards looks nearly the same.
 constexpr int kDrapedBuild = static_cast<int>(kBuilds.size());
-constexpr double kDrapeHip = 0.02, kDrapeKnee = 0.045, kDrapeCalf = 0.03;
-// Uncertainty of a proposed pose.
-constexpr double kStartStdMm = 100;
-constexpr double kStartStdRad = 0.5;
-// Share of the edges that miss the hull. Beyond it, flesh is torn, and what no part explains is no
-// evidence of a thing.
-constexpr double kTooMuchMissing = 0.05;
-// Poses whose points have a smaller mean distance than this are equal.
-constexpr double kSameMm = 60;
-constexpr std::size_t kKept = 6;
-constexpr std::size_t kWithNeighbours = 3;
-constexpr int kNeighbourhoods = 2;
-// Height of a standing person's middle, as a share of the stature.
-constexpr double kMiddleShare = 0.55;
+
+struct SearchLimits {
+  double pose_std_mm, pose_std_rad;  // Uncertainty of a proposed pose.
+  // Share of the edges that miss the hull. Beyond it, flesh is torn, and what no part explains is
+  // no evidence of a thing.
+  double missing_share;
+  double same_mm;  // Mean distance of the points of poses that are equal.
+  std::size_t kept, with_neighbours;
+  int neighbourhoods;
+  double middle_share;  // Height of a standing person's middle, as a share of the stature.
+};
+constexpr SearchLimits kSearch{.pose_std_mm = 100,
+                               .pose_std_rad = 0.5,
+                               .missing_share = 0.05,
+                               .same_mm = 60,
+                               .kept = 6,
+                               .with_neighbours = 3,
+                               .neighbourhoods = 2,
+                               .middle_share = 0.55};
 
 BodySizes SizesOf(double stature_mm, double build) {
   BodySizes sizes = AverageSizes(stature_mm);
   for (const SizeMember width : kStoutWidths) sizes.*width *= build;
+  return sizes;
+}
+
+BodySizes InSkirt(BodySizes sizes, double stature_mm) {
+  sizes.drape_hip = 0.02 * stature_mm;
+  sizes.drape_knee = 0.045 * stature_mm;
+  sizes.drape_calf = 0.03 * stature_mm;
   return sizes;
 }
 
@@ -49,7 +63,7 @@ std::vector<Vector3> MiddlesOf(const VoxelCloud& cloud) {
   const auto [lowest, highest] = std::ranges::minmax(cloud.voxels(), {}, height_mm);
   if (!LacksLegs(height_mm(lowest))) return middles_W;
   const Vector3 middle_W = middles_W.front();
-  middles_W.emplace_back(middle_W.x(), middle_W.y(), kMiddleShare * height_mm(highest));
+  middles_W.emplace_back(middle_W.x(), middle_W.y(), kSearch.middle_share * height_mm(highest));
   return middles_W;
 }
 
@@ -65,13 +79,10 @@ struct StanceSearch::Round {
 
 StanceSearch StanceSearch::OfStrangers(const BodyTable& table) {
   std::vector<BodyModel> bodies;
-  for (double stature_mm = kSmallestMm; stature_mm < kLargestMm; stature_mm *= kStatureStep) {
+  for (double stature_mm = kStatures.smallest_mm; stature_mm < kStatures.largest_mm;
+       stature_mm *= kStatures.step) {
     for (const double build : kBuilds) bodies.emplace_back(table, SizesOf(stature_mm, build));
-    BodySizes draped = SizesOf(stature_mm, kBuilds[kCoarseBuild]);
-    draped.drape_hip = kDrapeHip * stature_mm;
-    draped.drape_knee = kDrapeKnee * stature_mm;
-    draped.drape_calf = kDrapeCalf * stature_mm;
-    bodies.emplace_back(table, draped);
+    bodies.emplace_back(table, InSkirt(SizesOf(stature_mm, kBuilds[kCoarseBuild]), stature_mm));
   }
   return {std::move(bodies), kDrapedBuild + 1};
 }
@@ -84,18 +95,18 @@ StanceSearch::StanceSearch(std::vector<BodyModel> bodies, int builds)
 const std::vector<StanceCandidate>& StanceSearch::Find(const Evidence& evidence,
                                                        const Heading& heading,
                                                        const SearchScope& scope, Objective& frame) {
-  constexpr Round kWeighing{40, 80, kStartStdMm, {0, 0}, 160};
-  constexpr std::array kHeats = {Round{40, 80, kStartStdMm / 2, {2, 4}, 48},
-                                 Round{80, 120, kStartStdMm / 4, {3, 6}, 12}};
+  // Most poses are far off, and few samples show that. The first round only weighs them.
+  constexpr std::array kRounds = {Round{40, 80, kSearch.pose_std_mm, {0, 0}, 160},
+                                  Round{40, 80, kSearch.pose_std_mm / 2, {2, 4}, 48},
+                                  Round{80, 120, kSearch.pose_std_mm / 4, {3, 6}, 12}};
   constexpr Round kFinal{150, 200, 0, {4, 15}, 20};
   const std::vector<StanceCandidate> best_before = std::exchange(candidates_, {});
   Propose(evidence.cloud);
-  Play(evidence, heading, kWeighing, scope, frame);
-  for (const Round& heat : kHeats) Play(evidence, heading, heat, scope, frame);
+  for (const Round& round : kRounds) Play(evidence, heading, round, scope, frame);
   candidates_.insert(candidates_.end(), best_before.begin(), best_before.end());
   Play(evidence, heading, kFinal, {1, scope.things}, frame);
   KeepDistinct();
-  for (int i = 0; i < kNeighbourhoods && bodies_.size() > 1; ++i) {
+  for (int i = 0; i < kSearch.neighbourhoods && bodies_.size() > 1; ++i) {
     ProposeNeighbours();
     Play(evidence, heading, kFinal, {1, scope.things}, frame);
     KeepDistinct();
@@ -115,8 +126,8 @@ void StanceSearch::Remember(const BodySizes& sizes, const PoseState& pose) {
 void StanceSearch::Propose(const VoxelCloud& cloud) {
   const std::vector<Vector3> middles_W = MiddlesOf(cloud);
   const std::vector<Vector3> axes_W = TrunkAxes(cloud);
-  const int first = builds_ == 1 ? 0 : (kCoarseStep / 2) * builds_ + kCoarseBuild;
-  for (int body = first; body < std::ssize(bodies_); body += kCoarseStep * builds_) {
+  const int first = builds_ == 1 ? 0 : (kStatures.coarse / 2) * builds_ + kCoarseBuild;
+  for (int body = first; body < std::ssize(bodies_); body += kStatures.coarse * builds_) {
     poses_.clear();
     for (const Vector3& middle_W : middles_W)
       for (const Vector3& up_W : axes_W) libraries_[body].Propose(middle_W, up_W, poses_);
@@ -126,7 +137,7 @@ void StanceSearch::Propose(const VoxelCloud& cloud) {
 
 // Bodies of the next size may explain the evidence better in the same pose.
 void StanceSearch::ProposeNeighbours() {
-  const std::size_t count = std::min(candidates_.size(), kWithNeighbours);
+  const std::size_t count = std::min(candidates_.size(), kSearch.with_neighbours);
   for (std::size_t i = 0; i < count; ++i) {
     const int body = candidates_[i].body, build = body % builds_;
     const auto propose = [&](int other) {
@@ -149,12 +160,12 @@ void StanceSearch::Play(const Evidence& evidence, const Heading& heading, const 
                         const SearchScope& scope, Objective& frame) {
   Objective objective({round.voxels, round.rays, round.pose_std_mm});
   objective.SetEvidence(evidence, heading);
-  const Things things = evidence.MissingShare() < kTooMuchMissing ? scope.things : Things{};
+  const Things things = evidence.MissingShare() < kSearch.missing_share ? scope.things : Things{};
   for (StanceCandidate& candidate : candidates_) {
     const BodyModel& body = bodies_[candidate.body];
     if (round.iterations.most > 0) {
       PoseFilter filter{MotionNoise{}};
-      filter.Reset(candidate.pose, kStartStdMm, kStartStdRad);
+      filter.Reset(candidate.pose, kSearch.pose_std_mm, kSearch.pose_std_rad);
       DrawNear(objective, body, {}, round.iterations, filter);
       candidate.pose = filter.pose();
     }
@@ -171,11 +182,11 @@ void StanceSearch::Play(const Evidence& evidence, const Heading& heading, const 
 void StanceSearch::KeepDistinct() {
   std::vector<BodyPoints> kept_W;
   std::erase_if(candidates_, [&](const StanceCandidate& candidate) {
-    if (kept_W.size() == kKept) return true;
+    if (kept_W.size() == kSearch.kept) return true;
     const BodyModel& body = bodies_[candidate.body];
     const BodyPoints points_W = body.PointsAt(body.PostureAt(candidate.pose));
     const bool is_known = std::ranges::any_of(kept_W, [&](const BodyPoints& other_W) {
-      return (points_W - other_W).colwise().norm().mean() < kSameMm;
+      return (points_W - other_W).colwise().norm().mean() < kSearch.same_mm;
     });
     if (!is_known) kept_W.push_back(points_W);
     return is_known;
