@@ -20,23 +20,20 @@ namespace {
 
 // When a person's state changes.
 struct StateLimits {
-  double least_litres;    // Less is a stray shadow: a child of 1.1 m has about 18 litres of flesh.
-  int frames_to_lose;     // Of a bad fit, one after the other.
-  double forget_after_s;  // Since somebody was lost.
-  int frames_to_refine;   // Sizes settle after this many well-fitted frames.
-  double settled_mm;      // Change of the stature in a frame, §8.1,
-  int frames_to_settle;  // or after this many: the lengths of somebody who crouches stay uncertain.
+  // Less is a stray shadow: a child of 1.1 m has about 18 litres of flesh.
+  double least_litres = 12;
+  int frames_to_lose = 3;     // Of a bad fit, one after the other.
+  double forget_after_s = 1;  // Since somebody was lost.
+  int frames_to_refine = 90;  // Sizes settle after this many well-fitted frames.
+  // Sizes are known when the stature changes by less in a frame, §8.1, or after this many: the
+  // lengths of somebody who crouches stay uncertain.
+  double settled_mm = 3;
+  int frames_to_settle = 6;
   // Odds of 1000 to 1 make somebody a stranger where one person is expected: sizes that are
   // measured in the same frame fit better than known ones.
-  double stranger_nats;
+  double stranger_nats = 6.9;
 };
-constexpr StateLimits kLimits{.least_litres = 12,
-                              .frames_to_lose = 3,
-                              .forget_after_s = 1,
-                              .frames_to_refine = 90,
-                              .settled_mm = 3,
-                              .frames_to_settle = 6,
-                              .stranger_nats = 6.9};
+constexpr StateLimits kLimits{};
 
 // Computes the covariance of a point of the body from that of the joints that move it.
 Matrix3 CovarianceOf(const BodyModel& body, const Posture& posture, Point point,

@@ -7,11 +7,12 @@
 namespace mocap {
 namespace {
 
-// As shares of a voxel: the step along a ray, and the offset of the test line towards the inside.
-constexpr double kStep = 0.8;
-constexpr double kInward = 0.7;
-// Share of a camera's rays, beyond the usual one.
-constexpr double kMostMissing = 1.0 / 3;
+struct Cut {
+  // Along a ray, and of the test line towards the inside [voxels].
+  double step = 0.8, inward = 0.7;
+  double most_missing = 1.0 / 3;  // Share of a camera's rays, beyond the usual one.
+};
+constexpr Cut kCut{};
 
 struct Range {
   double from_mm;
@@ -32,8 +33,8 @@ std::optional<Range> Within(const Eigen::AlignedBox3d& box, const Vector3& eye,
 // The part of a ray along the voxels; empty if it misses them.
 std::optional<Range> AlongVoxels(const VoxelCloud& cloud, const GrazingRay& ray,
                                  const Range& in_box) {
-  const double step_mm = kStep * cloud.voxel_mm();
-  const Vector3 eye_W = ray.eye_W - kInward * cloud.voxel_mm() * ray.outward_W;
+  const double step_mm = kCut.step * cloud.voxel_mm();
+  const Vector3 eye_W = ray.eye_W - kCut.inward * cloud.voxel_mm() * ray.outward_W;
   const int steps = static_cast<int>(std::ceil((in_box.to_mm - in_box.from_mm) / step_mm));
   const VoxelCloud::Places places =
       cloud.PlacesAlong(eye_W + in_box.from_mm * ray.direction_W, step_mm * ray.direction_W);
@@ -62,7 +63,7 @@ void BoundingEdgeFinder::Find(const VoxelCloud& cloud, std::span<const Outline> 
   const double usual_share = UsualMissingShare();
   std::size_t i = 0;
   for (const Camera& camera : cameras_) {
-    const bool errs = ShareOf(camera.missing, camera.rays) > usual_share + kMostMissing;
+    const bool errs = ShareOf(camera.missing, camera.rays) > usual_share + kCut.most_missing;
     const std::size_t end = i + camera.cuts;
     for (std::size_t cut = i; cut < end; ++cut)
       if (!cuts_[cut].misses_hull) edges.push_back(cuts_[cut]);

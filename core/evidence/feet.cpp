@@ -6,18 +6,18 @@
 namespace mocap {
 namespace {
 
-// Soles are below the first height, and what is between the two heights is shin.
-constexpr double kAnkleMm = 75;
-constexpr double kShinMm = 175;
-// A third of a foot; smaller pieces are scraps.
-constexpr double kLeastFootLitres = 0.3;
-// Two large shoes side by side, and their share of a person in clothes. A larger piece is more than
-// feet: the hull between the legs of somebody who sits, or a hem.
-constexpr double kMostFeetLitres = 3;
-constexpr double kMostFeetShare = 0.03;
-// Feet are 30 to 50 mm before the shins. Less is noise: of a sole that leaves the floor, or of a
-// foot under a gown.
-constexpr double kLeastOffsetMm = 15;
+struct FootSizes {
+  // Soles are below the first height; between the two is shin.
+  double ankle_mm = 75, shin_mm = 175;
+  double least_litres = 0.3;  // A third of a foot; smaller pieces are scraps.
+  // Two large shoes side by side, and their share of a person in clothes. A larger piece is more
+  // than feet: the hull between the legs of somebody who sits, or a hem.
+  double most_litres = 3, most_share = 0.03;
+  // Feet are 30 to 50 mm before the shins. Less is noise: of a sole that leaves the floor, or of a
+  // foot under a gown.
+  double least_offset_mm = 15;
+};
+constexpr FootSizes kFeet{};
 
 // Number of layers of cells with their middle below a height.
 int LayersBelow(const VoxelCloud& cloud, double height_mm) {
@@ -55,22 +55,22 @@ void FeetFinder::Measure(const VoxelCloud& cloud, int sole_layers, int shin_laye
 }
 
 std::optional<Vector3> FeetFinder::ToesBeforeShins(const VoxelCloud& cloud) {
-  const int sole_layers = LayersBelow(cloud, kAnkleMm);
+  const int sole_layers = LayersBelow(cloud, kFeet.ankle_mm);
   if (sole_layers == 0) return std::nullopt;
-  Measure(cloud, sole_layers, LayersBelow(cloud, kShinMm));
+  Measure(cloud, sole_layers, LayersBelow(cloud, kFeet.shin_mm));
   const double voxel_litres = std::pow(cloud.voxel_mm(), 3) * 1e-6;
-  const double most_litres = std::min(kMostFeetLitres, kMostFeetShare * cloud.volume_litres());
+  const double most_litres = std::min(kFeet.most_litres, kFeet.most_share * cloud.volume_litres());
   Vector3 sum_W = Vector3::Zero();
   double voxels = 0;
   for (std::size_t i = 0; i < feet_.size(); ++i) {
     const double size = pieces_.sizes()[i], litres = size * voxel_litres;
-    if (litres < kLeastFootLitres || litres > most_litres) continue;
+    if (litres < kFeet.least_litres || litres > most_litres) continue;
     if (feet_[i].shin_voxels == 0) continue;
     sum_W += size * (feet_[i].sole_W / size - feet_[i].shin_W / feet_[i].shin_voxels);
     voxels += size;
   }
   sum_W.z() = 0;
-  if (voxels == 0 || sum_W.norm() < kLeastOffsetMm * voxels) return std::nullopt;
+  if (voxels == 0 || sum_W.norm() < kFeet.least_offset_mm * voxels) return std::nullopt;
   return Vector3(sum_W / voxels);
 }
 

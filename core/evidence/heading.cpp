@@ -4,8 +4,10 @@ namespace mocap {
 namespace {
 
 // Who walks this fast for this long looks ahead. Steps of a dance are shorter.
-constexpr double kWalking_mm_s = 600;
-constexpr double kWalking_s = 0.45;
+struct Walk {
+  double mm_s = 600, s = 0.45;
+};
+constexpr Walk kWalk{};
 
 }  // namespace
 
@@ -16,10 +18,10 @@ Heading HeadingWatch::Look(const VoxelCloud& cloud, double dt_s) {
 
 std::optional<Vector3> HeadingWatch::Way(const Vector3& p_W) {
   way_.push_back({time_s_, p_W});
-  while (way_.size() > 1 && time_s_ - way_[1].time_s >= kWalking_s) way_.erase(way_.begin());
+  while (way_.size() > 1 && time_s_ - way_[1].time_s >= kWalk.s) way_.erase(way_.begin());
   const double passed_s = time_s_ - way_.front().time_s;
   const Vector2 way_W = (p_W - way_.front().p_W).head<2>();
-  if (passed_s < kWalking_s || way_W.norm() < kWalking_mm_s * passed_s) return std::nullopt;
+  if (passed_s < kWalk.s || way_W.norm() < kWalk.mm_s * passed_s) return std::nullopt;
   return Vector3(way_W.x(), way_W.y(), 0);
 }
 

@@ -3,14 +3,18 @@
 namespace mocap {
 namespace {
 
-constexpr double kStartStd_mm = 50, kStartStd_rad = 0.3;
-constexpr int kSizeIterations = 3;
+// How closely a body starts at the pose that was found for it.
+struct Start {
+  double std_mm = 50, std_rad = 0.3;
+  int size_iterations = 3;
+};
+constexpr Start kStart{};
 
 }  // namespace
 
 Hypothesis::Hypothesis(const BodyModel& model, const PoseState& pose, bool measures)
     : body(model), filter(MotionNoise{}) {
-  filter.Reset(pose, kStartStd_mm, kStartStd_rad);
+  filter.Reset(pose, kStart.std_mm, kStart.std_rad);
   if (measures) sizes.emplace(body);
 }
 
@@ -32,7 +36,7 @@ void Hypothesis::Jump(Objective& objective, const PoseState& pose) {
 
 void Hypothesis::MeasureSizes(Objective& objective) {
   const SizeRefiner without_frame = *sizes;
-  for (int i = 0; i < kSizeIterations; ++i) {
+  for (int i = 0; i < kStart.size_iterations; ++i) {
     sizes = without_frame;
     RefineSizes(objective);
     // The same evidence again adds no information to the filter.

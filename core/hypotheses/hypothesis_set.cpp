@@ -7,20 +7,23 @@
 namespace mocap {
 namespace {
 
-// Residuals of frames this close in time correlate by 0.7 (`mocap benchmark --parts noise`).
-constexpr double kAlike_s = 0.1;
-constexpr std::size_t kMost = 4;
-// Odds of 19 to 1 change the mind; of 1 to 1000 end a hypothesis.
-const double kChangeNats = std::log(19);
-const double kDropNats = std::log(1000);
-// A pose that is worse by this than the believed one before it is fitted is not fitted: of 149 that
-// were worse by 80, in three takes, one was better after the fit.
-constexpr double kHopelessNats = 70;
-// Poses whose points have a smaller mean distance than this are equal.
-constexpr double kSame_mm = 30;
+// How odds decide.
+struct Odds {
+  // Residuals of frames this close in time correlate by 0.7 (`mocap benchmark --parts noise`).
+  double alike_s = 0.1;
+  double change = 19, drop = 1000;  // 19 to 1 change the mind; 1 to 1000 end a hypothesis.
+  std::size_t most = 4;             // Hypotheses.
+  // A pose that is worse by this than the believed one before it is fitted is not fitted: of 149
+  // that were worse by 80, in three takes, one was better after the fit.
+  double hopeless_nats = 70;
+  double same_mm = 30;  // Mean distance of the points of poses that are equal.
+  // Larger differences between motion and prediction are out of reach of a fit.
+  double leap_mm = 50;
+};
+constexpr Odds kOdds{};
 
 bool AreSame(const Hypothesis& a, const Hypothesis& b) {
-  return MeanDistance(a.body, a.filter.pose(), b.body, b.filter.pose()) < kSame_mm;
+  return MeanDistance(a.body, a.filter.pose(), b.body, b.filter.pose()) < kOdds.same_mm;
 }
 
 // Frames that its sizes were measured in.
@@ -51,16 +54,14 @@ void HypothesisSet::Begin(std::vector<Hypothesis> hypotheses,
 }
 
 void HypothesisSet::Follow(Objective& objective, const VoxelCloud& cloud, double dt_s) {
-  // Larger differences between motion and prediction are out of reach of a fit.
-  constexpr double kLeap_mm = 50;
   const Vector3 middle_W = cloud.Centroid();
   const Vector3 moved_W = middle_W_ ? Vector3(middle_W - *middle_W_) : Vector3::Zero();
-  worth_ = kFrameWorth * std::min(1.0, dt_s / kAlike_s);
+  worth_ = kFrameWorth * std::min(1.0, dt_s / kOdds.alike_s);
   for (Hypothesis& hypothesis : hypotheses_) {
     const Vector3 before_W = hypothesis.filter.pose().X_WT.p;
     if (dt_s > 0) hypothesis.filter.Predict(dt_s);
     const Vector3 unforeseen_W = moved_W - (hypothesis.filter.pose().X_WT.p - before_W);
-    if (middle_W_ && unforeseen_W.norm() > kLeap_mm)
+    if (middle_W_ && unforeseen_W.norm() > kOdds.leap_mm)
       FollowLeap(objective, unforeseen_W, hypothesis);
     hypothesis.Fit(objective);
     hypothesis.nats += worth_ * hypothesis.fitness.Sum();
@@ -71,7 +72,7 @@ void HypothesisSet::Follow(Objective& objective, const VoxelCloud& cloud, double
 
 void HypothesisSet::Offer(Objective& objective, const PoseState& pose) {
   const double start = objective.At(best().body, pose, best().things).Sum();
-  if (start > best().fitness.Sum() + kHopelessNats) return;
+  if (start > best().fitness.Sum() + kOdds.hopeless_nats) return;
   offered_ = best();
   offered_->Jump(objective, pose);
   offered_->nats += worth_ * (offered_->fitness.Sum() - best().fitness.Sum());
@@ -101,7 +102,7 @@ void HypothesisSet::BelieveLikeliest() {
 void HypothesisSet::Judge() {
   Merge();
   const auto likeliest = std::ranges::min_element(hypotheses_, {}, &Hypothesis::nats);
-  if (likeliest->nats < best().nats - kChangeNats) {
+  if (likeliest->nats < best().nats - std::log(kOdds.change)) {
     std::iter_swap(hypotheses_.begin(), likeliest);
     ++changes_;
   }
@@ -123,11 +124,12 @@ void HypothesisSet::Merge() {
 void HypothesisSet::Drop() {
   std::sort(hypotheses_.begin() + 1, hypotheses_.end(),
             [](const Hypothesis& a, const Hypothesis& b) { return a.nats < b.nats; });
-  if (hypotheses_.size() > kMost) hypotheses_.erase(hypotheses_.begin() + kMost, hypotheses_.end());
+  if (hypotheses_.size() > kOdds.most)
+    hypotheses_.erase(hypotheses_.begin() + kOdds.most, hypotheses_.end());
   const double likeliest = std::ranges::min_element(hypotheses_, {}, &Hypothesis::nats)->nats;
   for (Hypothesis& hypothesis : hypotheses_) hypothesis.nats -= likeliest;
   const auto is_improbable = [](const Hypothesis& one) {
-    return one.nats > kDropNats || !one.filter.is_sound();
+    return one.nats > std::log(kOdds.drop) || !one.filter.is_sound();
   };
   hypotheses_.erase(std::remove_if(hypotheses_.begin() + 1, hypotheses_.end(), is_improbable),
                     hypotheses_.end());

@@ -8,13 +8,13 @@
 namespace mocap {
 namespace {
 
-// Smaller steps are not worth another iteration.
-constexpr double kSmallStepMm = 0.5;
-constexpr double kSmallStepRad = 0.003;
-// If frames are far apart, poses have not converged after the usual iterations, and limbs that have
-// not been fitted completely seem lost.
-constexpr double kFarMm = 10;
-constexpr double kFarRad = 0.1;
+struct Steps {
+  double small_mm = 0.5, small_rad = 0.003;  // Smaller ones are not worth another iteration.
+  // If frames are far apart, poses have not converged after the usual iterations, and limbs that
+  // have not been fitted completely seem lost.
+  double far_mm = 10, far_rad = 0.1;
+};
+constexpr Steps kSteps{};
 
 // Empty if rounding or a NaN measurement has made the matrix unusable.
 std::optional<PoseCovariance> InverseOfPositive(const PoseCovariance& matrix) {
@@ -96,8 +96,8 @@ PoseCovariance PoseFilter::Iterate(const Linearize& linearize, const Iterations&
     const PoseStep step = Eigen::LLT<PoseCovariance>(information).solve(gradient);
     pose_.Add(step);
     const double step_mm = step.head<3>().norm(), step_rad = step.tail(step.size() - 3).norm();
-    if (step_mm < kSmallStepMm && step_rad < kSmallStepRad) break;
-    goes_far = step_mm > kFarMm || step_rad > kFarRad;
+    if (step_mm < kSteps.small_mm && step_rad < kSteps.small_rad) break;
+    goes_far = step_mm > kSteps.far_mm || step_rad > kSteps.far_rad;
   }
   return information;
 }

@@ -18,7 +18,7 @@ struct RefinedSize {
 
 // Lengths differ among people of a stature by about three percent, and widths by more (ANSUR,
 // Gordon et al. 1989). Clothes and hair add to that. The hips stay unchanged: they lie so deep in
-// flesh that contours do not show them.
+// flesh that contours do not show them. The drape comes last: whoever wears none gets none.
 constexpr std::array<RefinedSize, 19> kRefined = {{{&BodySizes::torso, 0.03},
                                                    {&BodySizes::torso_width, 0.12},
                                                    {&BodySizes::torso_depth, 0.15},
@@ -38,18 +38,19 @@ constexpr std::array<RefinedSize, 19> kRefined = {{{&BodySizes::torso, 0.03},
                                                    {&BodySizes::drape_knee, 0},
                                                    {&BodySizes::drape_calf, 0},
                                                    {&BodySizes::drape_ankle, 0}}};
-// The drape comes last: whoever wears none gets none.
-constexpr double kDrapeStdMm = 50;
+// Standard deviations.
+struct Uncertainty {
+  double drape_mm = 50;
+  double stature_share = 0.04;          // Of the body that was found.
+  double pose_mm = 40, pose_rad = 0.2;  // Of the pose that it was found in.
+};
+constexpr Uncertainty kStd{};
 
-// Uncertainty of the stature of the body that was found.
-constexpr double kStatureStdShare = 0.04;
 constexpr int kMostSizes = static_cast<int>(kRefined.size());
 constexpr int kMostUnknowns = kMaxDof + kMostSizes;
 using Information =
     Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, kMostUnknowns, kMostUnknowns>;
 using InformationVector = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, kMostUnknowns, 1>;
-constexpr double kPoseStdMm = 40;
-constexpr double kPoseStdRad = 0.2;
 
 std::span<const RefinedSize> RefinedOf(const BodySizes& start) {
   const std::size_t drape = start.IsDraped() ? 0 : kDrapeSizes.size();
@@ -73,7 +74,7 @@ Information PriorOf(const BodySizes& start) {
   };
   const auto by_stature_mm = [&](int i) {
     const SizeMember size = kRefined[i].size;
-    return kStatureStdShare * stature_mm * (taller.*size - usual.*size);
+    return kStd.stature_share * stature_mm * (taller.*size - usual.*size);
   };
   for (int i = 0; i < count; ++i) {
     for (int j = 0; j < count; ++j) {
@@ -82,7 +83,7 @@ Information PriorOf(const BodySizes& start) {
                              kRefined[j].std_share * start.*kRefined[j].size +
                          by_stature_mm(i) * by_stature_mm(j);
     }
-    if (kRefined[i].std_share == 0) covariance(i, i) = kDrapeStdMm * kDrapeStdMm;
+    if (kRefined[i].std_share == 0) covariance(i, i) = kStd.drape_mm * kStd.drape_mm;
   }
   return covariance.llt().solve(Information::Identity(count, count));
 }
@@ -114,7 +115,7 @@ void SizeRefiner::Add(const BodyModel& body, Objective& objective, const PoseSta
   }
   H = Information(H.selfadjointView<Eigen::Lower>());
   for (int i = 0; i < pose_dof; ++i) {
-    const double std = i < 3 ? kPoseStdMm : kPoseStdRad;
+    const double std = i < 3 ? kStd.pose_mm : kStd.pose_rad;
     H(i, i) += 1 / (std * std);
   }
   const Eigen::LLT<Information> pose_part(H.topLeftCorner(pose_dof, pose_dof));

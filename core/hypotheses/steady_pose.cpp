@@ -8,14 +8,15 @@
 namespace mocap {
 namespace {
 
-// How far the points of a still person move: their spread after kStill_s.
-constexpr double kStillMm = 5;
-constexpr double kStill_s = 1.0 / 30;
-constexpr double kShortest_s = 0.003;
-// Points that moved farther than this break free: a share of their noise, and at least.
-constexpr double kNoiseShare = 0.3;
-constexpr double kLeastMm = 1;
-constexpr int kSteadyIterations = 3;
+struct Stillness {
+  // How far the points of a still person have moved after some time.
+  double spread_mm = 5, after_s = 1.0 / 30;
+  double shortest_s = 0.003;
+  // Points that moved farther break free: a share of their noise.
+  double noise_share = 0.3, least_mm = 1;
+  int iterations = 3;
+};
+constexpr Stillness kStill{};
 
 using PointJacobian = Eigen::Matrix<double, 3, Eigen::Dynamic, Eigen::ColMajor, 3, kMaxDof>;
 
@@ -34,17 +35,19 @@ PoseState SteadyPose::Steady(const BodyModel& body, const PoseFilter& filter,
   const PoseCovariance prior =
       Eigen::LLT<PoseCovariance>(filter.covariance()).solve(PoseCovariance::Identity(n, n));
   const BodyPoints before_W = body.PointsAt(body.PostureAt(*held_));
-  const double still_mm2 = kStillMm * kStillMm * std::max(CountedS(dt_s), kShortest_s) / kStill_s;
+  const double still_mm2 = kStill.spread_mm * kStill.spread_mm *
+                           std::max(CountedS(dt_s), kStill.shortest_s) / kStill.after_s;
   PoseState pose = filter.pose();
   UpdateEquations equations;
   PointJacobian J(3, n);
-  for (int iteration = 0; iteration < kSteadyIterations; ++iteration) {
+  for (int iteration = 0; iteration < kStill.iterations; ++iteration) {
     const Posture posture = body.PostureAt(pose);
     const BodyPoints now_W = body.PointsAt(posture);
     equations.Reset(n);
     for (int i = 0; i < kPointCount; ++i) {
       const Vector3 back_W = before_W.col(i) - now_W.col(i);
-      const double scaled = back_W.norm() / std::max(kLeastMm, kNoiseShare * std_mm[i]);
+      const double scaled =
+          back_W.norm() / std::max(kStill.least_mm, kStill.noise_share * std_mm[i]);
       const double inflation = (1 + scaled * scaled) * (1 + scaled * scaled);
       body.PointJacobian(posture, body.CarrierOf(static_cast<Point>(i)), now_W.col(i), J);
       equations.AddPoint(J, back_W, inflation * still_mm2);

@@ -7,21 +7,20 @@
 namespace mocap {
 namespace {
 
-// Sizes of things, from the middle of the skull, from the spine, and around a hanging bag.
-constexpr double kHatMm = 200;
-constexpr double kPackMm = 280;
-constexpr double kPackBesideMm = 30;
-constexpr double kBagMm = 150;
-// As shares of the stature: a wheel's far end from the hips, and a bag's from the hand.
-constexpr double kSeatShare = 0.35;
-constexpr double kBagShare = 0.25;
-// Armrests and wheels rise above the hip joints.
-constexpr double kAboveHipsMm = 100;
-// A thigh is level with a smaller slope; a trunk is upright and a forearm hangs with a greater one.
-constexpr double kLevelSlope = 0.6;
-constexpr double kUprightSlope = 0.7;
-// Middle of the skull, and the lower border of hair, from the head's centre as shares of its size.
-constexpr double kSkullShare = 0.25;
+struct ThingSizes {
+  double hat_mm = 200;                      // From the middle of the skull.
+  double pack_mm = 280, pack_side_mm = 30;  // Behind the spine, and beside the trunk.
+  // Around a hanging bag, and its length as a share of the stature.
+  double bag_mm = 150, bag_share = 0.25;
+  double seat_share = 0.35;    // A wheel's far end from the hips, likewise.
+  double above_hips_mm = 100;  // Armrests and wheels rise above the hip joints.
+  // A thigh is level with a smaller slope; a trunk is upright and a forearm hangs with a greater.
+  double level = 0.6, upright = 0.7;
+  // Middle of the skull, and the lower border of hair, from the head's centre, as shares of its
+  // size.
+  double skull_share = 0.25;
+};
+constexpr ThingSizes kThings{};
 
 double Slope(const Vector3& from_W, const Vector3& to_W) {
   const Vector3 way_W = to_W - from_W;
@@ -44,28 +43,28 @@ ThingPlaces::ThingPlaces(const BodyModel& body, const Posture& posture, Things a
   const BodyPoints points_W = body.PointsAt(posture);
   const auto at = [&](Point point) -> Vector3 { return points_W.col(static_cast<int>(point)); };
   up_W_ = (at(Point::kHead) - at(Point::kNeck)).normalized();
-  chin_W_ = at(Point::kHead) - kSkullShare * sizes.head * up_W_;
-  head_ = Around(at(Point::kHead) + kSkullShare * sizes.head * up_W_, kHatMm);
+  chin_W_ = at(Point::kHead) - kThings.skull_share * sizes.head * up_W_;
+  head_ = Around(at(Point::kHead) + kThings.skull_share * sizes.head * up_W_, kThings.hat_mm);
   back_ = PosedCapsule(X_WT_ * Vector3(0, 0, -sizes.torso / 4),
-                       X_WT_ * Vector3(0, 0, sizes.torso / 2), kPackMm, kPackMm);
+                       X_WT_ * Vector3(0, 0, sizes.torso / 2), kThings.pack_mm, kThings.pack_mm);
   behind_mm_ = 0.4 * sizes.torso_depth;
-  beside_mm_ = sizes.torso_width / 2 + kPackBesideMm;
+  beside_mm_ = sizes.torso_width / 2 + kThings.pack_side_mm;
   const auto is_level = [&](Point hip, Point knee) {
-    return std::abs(Slope(at(hip), at(knee))) < kLevelSlope;
+    return std::abs(Slope(at(hip), at(knee))) < kThings.level;
   };
-  if (X_WT_.R(2, 2) > kUprightSlope && is_level(Point::kHipL, Point::kKneeL) &&
+  if (X_WT_.R(2, 2) > kThings.upright && is_level(Point::kHipL, Point::kKneeL) &&
       is_level(Point::kHipR, Point::kKneeR)) {
     const Vector3 hips_W = (at(Point::kHipL) + at(Point::kHipR)) / 2;
-    seat_ = Around(hips_W, kSeatShare * sizes.Stature());
-    seat_top_mm_ = hips_W.z() + kAboveHipsMm;
+    seat_ = Around(hips_W, kThings.seat_share * sizes.Stature());
+    seat_top_mm_ = hips_W.z() + kThings.above_hips_mm;
   }
   constexpr std::array kForearms = {std::pair{Point::kElbowL, Point::kFingertipsL},
                                     std::pair{Point::kElbowR, Point::kFingertipsR}};
   for (int i = 0; i < 2; ++i) {
     const Vector3 hand_W = at(kForearms[i].second);
-    if (Slope(at(kForearms[i].first), hand_W) > -kUprightSlope) continue;
-    const Vector3 end_W = hand_W - Vector3(0, 0, kBagShare * sizes.Stature());
-    bags_[i] = PosedCapsule(hand_W, end_W, kBagMm, kBagMm);
+    if (Slope(at(kForearms[i].first), hand_W) > -kThings.upright) continue;
+    const Vector3 end_W = hand_W - Vector3(0, 0, kThings.bag_share * sizes.Stature());
+    bags_[i] = PosedCapsule(hand_W, end_W, kThings.bag_mm, kThings.bag_mm);
   }
 }
 

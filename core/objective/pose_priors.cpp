@@ -8,17 +8,18 @@
 namespace mocap {
 namespace {
 
-constexpr double kLimitStd_rad = 0.01;
-// One pose in a thousand is upside down: an estimate.
-constexpr double kUpsideDownNats = 6.9;
-// Of 121 pairs of feet that showed a direction, one pointed backwards (decision 0121).
-constexpr double kAgainstFeetNats = 4.8;
-// One in fifty of those who walk goes backwards: an estimate.
-constexpr double kAgainstWayNats = 3.9;
-// Men are 1756 mm tall with a standard deviation of 67 (Gordon et al. 1989), and taller in a hull,
-// by hair and shoes. Whoever sits would otherwise be taken for a giant in the chair. Women and
-// children are shorter: nobody costs more for that.
-constexpr double kTall_mm = 1800, kTallStd_mm = 80;
+// Costs of what people hardly do.
+struct HabitCosts {
+  double limit_std_rad = 0.01;     // Of angles beyond a joint's limits.
+  double upside_down_nats = 6.9;   // One pose in a thousand: an estimate.
+  double against_feet_nats = 4.8;  // Of 121 pairs of feet, one pointed backwards (decision 0121).
+  double against_way_nats = 3.9;   // One in fifty of those who walk goes backwards: an estimate.
+  // Men are 1756 mm tall with a standard deviation of 67 (Gordon et al. 1989), and taller in a
+  // hull, by hair and shoes. Whoever sits would otherwise be taken for a giant in the chair. Women
+  // and children are shorter: nobody costs more for that.
+  double tall_mm = 1800, tall_std_mm = 80;
+};
+constexpr HabitCosts kHabits{};
 
 // 0: upright and facing a direction, or not upright; 1: the opposite way.
 double ShareAgainst(const PoseState& pose, const Vector3& ahead_W) {
@@ -35,7 +36,7 @@ double JointNats(const BodyTable& table, const JointAngles& theta) {
   for (int i = 0; i < theta.size(); ++i) {
     const JointAxis& joint = table.joints[i];
     const double beyond =
-        (theta[i] - std::clamp(theta[i], joint.min_rad, joint.max_rad)) / kLimitStd_rad;
+        (theta[i] - std::clamp(theta[i], joint.min_rad, joint.max_rad)) / kHabits.limit_std_rad;
     chi_square += beyond * beyond;
   }
   return chi_square / 2;
@@ -49,7 +50,8 @@ void LinearizeJoints(const BodyTable& table, const PoseState& pose, UpdateEquati
     const double allowed = std::clamp(angle, joint.min_rad, joint.max_rad);
     J.setZero();
     J[kTorsoDof + i] = 1;
-    if (angle != allowed) equations.Add(J, allowed - angle, kLimitStd_rad * kLimitStd_rad);
+    if (angle != allowed)
+      equations.Add(J, allowed - angle, kHabits.limit_std_rad * kHabits.limit_std_rad);
     if (joint.rest_std_rad > 0) {
       const JointRest rest = RestOf(table, i, pose.theta);
       J.tail(pose.theta.size()) -= rest.J_by_angle;
@@ -65,10 +67,11 @@ double ShareBackwards(const PoseState& pose, const Heading& heading) {
 
 double HabitNats(const BodyModel& body, const PoseState& pose, const Heading& heading) {
   const double upside_down = (1 - pose.X_WT.R(2, 2)) / 2;
-  const double taller = std::max(0.0, body.sizes().Stature() - kTall_mm) / kTallStd_mm;
-  double nats = kUpsideDownNats * upside_down * upside_down + taller * taller / 2;
-  if (heading.toes_W) nats += kAgainstFeetNats * ShareAgainst(pose, *heading.toes_W);
-  if (heading.walks_W) nats += kAgainstWayNats * ShareAgainst(pose, *heading.walks_W);
+  const double taller =
+      std::max(0.0, body.sizes().Stature() - kHabits.tall_mm) / kHabits.tall_std_mm;
+  double nats = kHabits.upside_down_nats * upside_down * upside_down + taller * taller / 2;
+  if (heading.toes_W) nats += kHabits.against_feet_nats * ShareAgainst(pose, *heading.toes_W);
+  if (heading.walks_W) nats += kHabits.against_way_nats * ShareAgainst(pose, *heading.walks_W);
   return nats;
 }
 

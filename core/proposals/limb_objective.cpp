@@ -9,11 +9,10 @@ namespace {
 
 // A limb may move this far from where it starts; the rest hardly moves.
 struct LimbFreedom {
-  double limb_rad, rest_mm, rest_rad;
-  Iterations iterations;
+  double limb_rad = 0.5, rest_mm = 0.1, rest_rad = 1e-3;
+  Iterations iterations{.usual = 5, .most = 5};
 };
-constexpr LimbFreedom kFreedom{
-    .limb_rad = 0.5, .rest_mm = 0.1, .rest_rad = 1e-3, .iterations = {.usual = 5, .most = 5}};
+constexpr LimbFreedom kFreedom{};
 
 void ListRows(const BodyTable& table, Segment limb_end, std::vector<int>& rows) {
   const int trunk = table.carrier[static_cast<int>(Segment::kPelvis)];

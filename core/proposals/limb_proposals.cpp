@@ -9,13 +9,12 @@ namespace {
 
 // How many stances of a limb are looked at, one step after the other.
 struct LimbEffort {
-  std::size_t in_flesh;                 // Those whose bones lie in flesh best are compared,
-  std::size_t refined, second_refined;  // the best of them refined,
-  std::size_t proposed, firsts;         // and these left: of a single limb; of a pair's first.
-  double apart_mm;                      // At least, between the limb's ends.
+  std::size_t in_flesh = 40;                    // Those whose bones lie in flesh best are compared,
+  std::size_t refined = 8, second_refined = 4;  // the best of them refined,
+  std::size_t proposed = 2, firsts = 2;  // and these left: of a single limb; of a pair's first.
+  double apart_mm = 150;                 // At least, between the limb's ends.
 };
-constexpr LimbEffort kEffort{
-    .in_flesh = 40, .refined = 8, .second_refined = 4, .proposed = 2, .firsts = 2, .apart_mm = 150};
+constexpr LimbEffort kEffort{};
 
 std::vector<JointAngles> ArmStances(const BodyTable& table) {
   std::vector<JointAngles> stances;

@@ -8,29 +8,20 @@ namespace {
 
 // What may be spent, and where it goes.
 struct Budget {
-  double per_s;                         // Evaluations of the objective per second of capture time,
-  double most_saved;                    // and the most that are saved up.
-  double searches_per_s, least_effort;  // Searches after the first, within about the time there is.
+  double per_s = 3000;       // Evaluations of the objective per second of capture time,
+  double most_saved = 1000;  // and the most that are saved up.
+  // Searches after the first, within about the time there is.
+  double searches_per_s = 9, least_effort = 0.1;
   // A round is worth its cost from this share of rays on that no part explains. Rests double
   // between these limits as long as rounds are in vain.
-  double unexplained_share, shortest_rest_s, longest_rest_s;
-  double hands_moved_mm;  // Until exchanged arms are tried again.
+  double unexplained_share = 0.005, shortest_rest_s = 0.1, longest_rest_s = 0.4;
+  double hands_moved_mm = 100;  // Until exchanged arms are tried again.
   // Candidates of a search that are tracked with all limbs: at full effort, and otherwise.
-  std::size_t finalists, few_finalists;
+  std::size_t finalists = 3, few_finalists = 1;
   // Of poses within 40 mm of the truth, one in a hundred has a greater misfit.
-  double doubtful_misfit;
+  double doubtful_misfit = 0.26;
 };
-constexpr Budget kBudget{.per_s = 3000,
-                         .most_saved = 1000,
-                         .searches_per_s = 9,
-                         .least_effort = 0.1,
-                         .unexplained_share = 0.005,
-                         .shortest_rest_s = 0.1,
-                         .longest_rest_s = 0.4,
-                         .hands_moved_mm = 100,
-                         .finalists = 3,
-                         .few_finalists = 1,
-                         .doubtful_misfit = 0.26};
+constexpr Budget kBudget{};
 constexpr std::array kPairs = {kArms, kLegs};
 constexpr std::size_t kWholeStances = kLimbEnds.size() + kPairs.size();
 

@@ -11,11 +11,11 @@ namespace {
 // Bodies of strangers. Clothes and hulls make everybody appear stouter. With realistic widths,
 // people would be taken for taller ones.
 struct Statures {
-  double smallest_mm, largest_mm;
-  double step;  // Ratio of two that follow each other.
-  int coarse;   // Every third is tried first; then its neighbours.
+  double smallest_mm = 1080, largest_mm = 2080;
+  double step = 1.06;  // Ratio of two that follow each other.
+  int coarse = 3;      // Every third is tried first; then its neighbours.
 };
-constexpr Statures kStatures{.smallest_mm = 1080, .largest_mm = 2080, .step = 1.06, .coarse = 3};
+constexpr Statures kStatures{};
 // Factors of an average person's widths. The second is tried first.
 constexpr std::array<double, 4> kBuilds = {1, 1.15, 1.32, 1.52};
 constexpr int kCoarseBuild = 1;
@@ -24,23 +24,16 @@ constexpr int kCoarseBuild = 1;
 constexpr int kDrapedBuild = static_cast<int>(kBuilds.size());
 
 struct SearchLimits {
-  double pose_std_mm, pose_std_rad;  // Uncertainty of a proposed pose.
+  double pose_std_mm = 100, pose_std_rad = 0.5;  // Uncertainty of a proposed pose.
   // Share of the edges that miss the hull. Beyond it, flesh is torn, and what no part explains is
   // no evidence of a thing.
-  double missing_share;
-  double same_mm;  // Mean distance of the points of poses that are equal.
-  std::size_t kept, with_neighbours;
-  int neighbourhoods;
-  double middle_share;  // Height of a standing person's middle, as a share of the stature.
+  double missing_share = 0.05;
+  double same_mm = 60;  // Mean distance of the points of poses that are equal.
+  std::size_t kept = 6, with_neighbours = 3;
+  int neighbourhoods = 2;
+  double middle_share = 0.55;  // Height of a standing person's middle, as a share of the stature.
 };
-constexpr SearchLimits kSearch{.pose_std_mm = 100,
-                               .pose_std_rad = 0.5,
-                               .missing_share = 0.05,
-                               .same_mm = 60,
-                               .kept = 6,
-                               .with_neighbours = 3,
-                               .neighbourhoods = 2,
-                               .middle_share = 0.55};
+constexpr SearchLimits kSearch{};
 
 BodySizes SizesOf(double stature_mm, double build) {
   BodySizes sizes = AverageSizes(stature_mm);
