@@ -21,6 +21,9 @@ struct Hypothesis {
   Things things;                     ///< What it may wear or carry.
   Fitness fitness;                   ///< In the last frame.
   double nats = 0;                   ///< -log p, integrated over time; only differences count.
+  /// Proposals that it has a right to before it may be dropped: somebody who was just found may
+  /// have his limbs elsewhere.
+  int trials = 0;
 
   /// Fits the body to a frame's evidence.
   void Fit(Objective& objective);

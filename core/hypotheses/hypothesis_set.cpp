@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <span>
+#include <utility>
 
 namespace mocap {
 namespace {
@@ -67,15 +68,26 @@ void HypothesisSet::Follow(Objective& objective, const VoxelCloud& cloud, double
     hypothesis.nats += worth_ * hypothesis.fitness.Sum();
   }
   middle_W_ = middle_W;
+  // As long as its limbs may be elsewhere, what it explained before counts for nothing.
+  for (Hypothesis& hypothesis : hypotheses_)
+    if (hypothesis.trials > 0)
+      hypothesis.nats = best().nats + worth_ * (hypothesis.fitness.Sum() - best().fitness.Sum());
   Judge();
 }
 
-void HypothesisSet::Offer(Objective& objective, const PoseState& pose) {
-  const double start = objective.At(best().body, pose, best().things).Sum();
-  if (start > best().fitness.Sum() + kOdds.hopeless_nats) return;
-  offered_ = best();
+void HypothesisSet::Vary(Objective& objective, Hypothesis& present, const PoseState& pose) {
+  const double start = objective.At(present.body, pose, present.things).Sum();
+  if (start > present.fitness.Sum() + kOdds.hopeless_nats) return;
+  offered_ = present;
   offered_->Jump(objective, pose);
-  offered_->nats += worth_ * (offered_->fitness.Sum() - best().fitness.Sum());
+  offered_->nats += worth_ * (offered_->fitness.Sum() - present.fitness.Sum());
+  if (offered_->nats < present.nats) {
+    for (Hypothesis& one : hypotheses_)
+      if (AreSame(one, present)) one.trials = 0;
+    present.trials = 0;
+  } else {
+    offered_->trials = 0;
+  }
   Offer(*offered_);
 }
 
@@ -93,10 +105,6 @@ void HypothesisSet::Offer(const Hypothesis& hypothesis) {
     known->nats = nats;
   }
   Judge();
-}
-
-void HypothesisSet::BelieveLikeliest() {
-  std::iter_swap(hypotheses_.begin(), std::ranges::min_element(hypotheses_, {}, &Hypothesis::nats));
 }
 
 void HypothesisSet::Judge() {
@@ -123,13 +131,15 @@ void HypothesisSet::Merge() {
 
 void HypothesisSet::Drop() {
   std::sort(hypotheses_.begin() + 1, hypotheses_.end(),
-            [](const Hypothesis& a, const Hypothesis& b) { return a.nats < b.nats; });
+            [](const Hypothesis& a, const Hypothesis& b) {
+              return std::pair(a.trials == 0, a.nats) < std::pair(b.trials == 0, b.nats);
+            });
   if (hypotheses_.size() > kOdds.most)
     hypotheses_.erase(hypotheses_.begin() + kOdds.most, hypotheses_.end());
   const double likeliest = std::ranges::min_element(hypotheses_, {}, &Hypothesis::nats)->nats;
   for (Hypothesis& hypothesis : hypotheses_) hypothesis.nats -= likeliest;
   const auto is_improbable = [](const Hypothesis& one) {
-    return one.nats > std::log(kOdds.drop) || !one.filter.is_sound();
+    return (one.trials == 0 && one.nats > std::log(kOdds.drop)) || !one.filter.is_sound();
   };
   hypotheses_.erase(std::remove_if(hypotheses_.begin() + 1, hypotheses_.end(), is_improbable),
                     hypotheses_.end());

@@ -30,16 +30,14 @@ class HypothesisSet {
              const std::optional<Vector3>& middle_W = std::nullopt);
   /// Predicts all hypotheses, fits them to the next frame and weighs them.
   void Follow(Objective& objective, const VoxelCloud& cloud, double dt_s);
-  /// Adds a pose that the believed body may have instead, as of this frame.
-  void Offer(Objective& objective, const PoseState& pose);
+  /// Adds a pose that a body may have instead, as of this frame. If it is likelier, it takes over
+  /// the trials. @param present  a copy of one of the set.
+  void Vary(Objective& objective, Hypothesis& present, const PoseState& pose);
   /// Adds a hypothesis that was fitted to this frame. One that is a known pose keeps what spoke
   /// against that.
   void Offer(const Hypothesis& hypothesis);
   /// Merges, drops, and believes another one if its odds are 19 to 1.
   void Judge();
-
-  /// Believes the likeliest, however small its odds: nothing was believed before.
-  void BelieveLikeliest();
 
   /// The hypothesis that is believed. @pre not empty
   Hypothesis& best() { return hypotheses_.front(); }

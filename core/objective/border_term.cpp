@@ -18,11 +18,12 @@ bool IsHeldByBorders(const Capsule& capsule, double share) {
 }
 
 void BorderTerm::SetEvidence(const Evidence& evidence, double pose_std_mm) {
+  const bool tell = pose_std_mm <= kBorderNoise.inside_mm;
   noise_ = kBorderNoise.Widened(pose_std_mm);
   const auto cameras =
       evidence.borders.size() - std::ranges::count_if(evidence.borders, &Outline::empty);
   noise_.alike *= static_cast<double>(std::max<std::size_t>(1, cameras));
-  borders_.resize(evidence.borders.size());
+  borders_.resize(tell ? evidence.borders.size() : 0);
   for (std::size_t i = 0; i < borders_.size(); ++i) borders_[i].SetOutline(evidence.borders[i]);
 }
 

@@ -18,6 +18,8 @@ namespace mocap {
 /// extends beyond the border of a silhouette, negative as for any evidence inside of the flesh.
 class BorderTerm {
  public:
+  /// Borders say little about poses that are off by more than their noise, and cost half of an
+  /// evaluation: they are left out.
   void SetEvidence(const Evidence& evidence, double pose_std_mm);
   double At(const PosedBody& posed, CapsuleSet capsules) const;
   void Linearize(const PosedBody& posed, CapsuleSet capsules, Linearisation& sums) const;

@@ -46,19 +46,6 @@ std::vector<JointAngles> LegStances(const BodyTable& table) {
   return stances;
 }
 
-Point EndOf(Segment limb_end) {
-  switch (limb_end) {
-    case Segment::kHandL:
-      return Point::kFingertipsL;
-    case Segment::kHandR:
-      return Point::kFingertipsR;
-    case Segment::kFootL:
-      return Point::kFootL;
-    default:
-      return Point::kFootR;
-  }
-}
-
 }  // namespace
 
 LimbProposals::LimbProposals(const BodyTable& table)
@@ -114,13 +101,6 @@ void LimbProposals::FindBest(Segment limb_end, const PoseState& pose, std::size_
   KeepDistinct(count);
 }
 
-void LimbProposals::FindTowards(Segment limb_end, const PoseState& pose, const Vector3& p_WQ) {
-  Rank(StancesOf(limb_end), pose,
-       [&](const PoseState& at) { return (limb_.TipAt(at) - p_WQ).norm(); });
-  candidates_.resize(std::min(candidates_.size(), kEffort.firsts));
-  Refine();
-}
-
 void LimbProposals::Elsewhere(Objective& objective, const Hypothesis& present, Segment limb_end,
                               std::vector<PoseState>& poses) {
   const PoseState& pose = present.filter.pose();
@@ -145,19 +125,6 @@ void LimbProposals::Both(Objective& objective, const Hypothesis& present, const 
     FindBest(second, candidate.pose, kEffort.second_refined, 1);
     poses.push_back(candidates_.front().pose);
   }
-}
-
-void LimbProposals::Exchanged(Objective& objective, const Hypothesis& present,
-                              const LimbPair& limb_ends, std::vector<PoseState>& poses) {
-  const auto [first, second] = limb_ends;
-  const PoseState& pose = present.filter.pose();
-  const BodyPoints points_W = present.body.PointsAt(present.body.PostureAt(pose));
-  limb_.Begin(objective, present.body, pose, first, second, present.things);
-  FindTowards(first, pose, points_W.col(static_cast<int>(EndOf(second))));
-  const PoseState half = candidates_.front().pose;
-  limb_.Begin(objective, present.body, half, second, second, present.things);
-  FindTowards(second, half, points_W.col(static_cast<int>(EndOf(first))));
-  poses.push_back(candidates_.front().pose);
 }
 
 }  // namespace mocap

@@ -14,8 +14,8 @@ namespace mocap {
 inline constexpr std::array<Segment, 4> kLimbEnds = {Segment::kHandL, Segment::kHandR,
                                                      Segment::kFootL, Segment::kFootR};
 using LimbPair = std::pair<Segment, Segment>;
-inline constexpr LimbPair kArms{Segment::kHandL, Segment::kHandR};
-inline constexpr LimbPair kLegs{Segment::kFootL, Segment::kFootR};
+inline constexpr std::array<LimbPair, 2> kLimbPairs = {
+    {{Segment::kHandL, Segment::kHandR}, {Segment::kFootL, Segment::kFootR}}};
 
 /// Proposes poses for a hypothesis that differ from its own in some limbs. The results are appended
 /// to a list, the best first. Reuses its memory.
@@ -26,13 +26,9 @@ class LimbProposals {
   /// One limb in other places.
   void Elsewhere(Objective& objective, const Hypothesis& present, Segment limb_end,
                  std::vector<PoseState>& poses);
-  /// Both limbs of a pair, because each may have taken the other's place.
+  /// Both arms or both legs, because each may have taken the other's place.
   void Both(Objective& objective, const Hypothesis& present, const LimbPair& limb_ends,
             std::vector<PoseState>& poses);
-  /// Both limbs of a pair, each with its end where the other's is. Hands that cross look as if they
-  /// had touched and gone back.
-  void Exchanged(Objective& objective, const Hypothesis& present, const LimbPair& limb_ends,
-                 std::vector<PoseState>& poses);
 
  private:
   struct Candidate {
@@ -49,7 +45,6 @@ class LimbProposals {
   // refined, the best first.
   void Refine();
   void FindBest(Segment limb_end, const PoseState& pose, std::size_t refined, std::size_t count);
-  void FindTowards(Segment limb_end, const PoseState& pose, const Vector3& p_WQ);
 
   std::vector<JointAngles> arm_stances_, leg_stances_;
   LimbObjective limb_;

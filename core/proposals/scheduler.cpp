@@ -8,22 +8,26 @@ namespace {
 
 // What may be spent, and where it goes.
 struct Budget {
-  double per_s = 3000;       // Evaluations of the objective per second of capture time,
-  double most_saved = 1000;  // and the most that are saved up.
+  double per_s = 3000;      // Evaluations of the objective per second of capture time,
+  double most_saved = 500;  // and the most that are saved up.
   // Searches after the first, within about the time there is.
   double searches_per_s = 9, least_effort = 0.1;
   // A round is worth its cost from this share of rays on that no part explains. Rests double
   // between these limits as long as rounds are in vain.
   double unexplained_share = 0.005, shortest_rest_s = 0.1, longest_rest_s = 0.4;
-  double hands_moved_mm = 100;  // Until exchanged arms are tried again.
   // Candidates of a search that are tracked with all limbs: at full effort, and otherwise.
   std::size_t finalists = 3, few_finalists = 1;
   // Of poses within 40 mm of the truth, one in a hundred has a greater misfit.
   double doubtful_misfit = 0.26;
 };
 constexpr Budget kBudget{};
-constexpr std::array kPairs = {kArms, kLegs};
-constexpr std::size_t kWholeStances = kLimbEnds.size() + kPairs.size();
+// The steps of a round: each limb, both arms, both legs, whole stances.
+constexpr std::size_t kBothArms = kLimbEnds.size();
+constexpr std::size_t kWholeStances = kBothArms + kLimbPairs.size();
+
+bool IsExplained(const Fitness& fitness) {
+  return fitness.unexplained_share < kBudget.unexplained_share;
+}
 
 // Whether a share of the rays has grown by more than the noise of independent rays.
 bool IsClearlyMore(double share, double before) {
@@ -46,7 +50,6 @@ void Scheduler::StartOver() {
 void Scheduler::BeginRounds() {
   next_ = 0;
   allowance_ = rest_s_ = rest_after_s_ = vain_share_ = 0;
-  hands_met_T_.reset();
 }
 
 StanceSearch& Scheduler::SearchFor(const std::optional<BodySizes>& known) {
@@ -67,53 +70,39 @@ std::vector<Hypothesis> Scheduler::FindAnybody(const Frame& frame,
       std::min(candidates.size(), scope.effort < 1 ? kBudget.few_finalists : kBudget.finalists);
   std::vector<Hypothesis> found;
   for (std::size_t i = 0; i < finalists; ++i) {
-    Hypothesis hypothesis(search.body(candidates[i].body), candidates[i].pose, !known);
+    Hypothesis& hypothesis =
+        found.emplace_back(search.body(candidates[i].body), candidates[i].pose, !known);
     hypothesis.things = candidates[i].things;
+    hypothesis.trials = static_cast<int>(kWholeStances);
     hypothesis.Fit(objective);
     if (!known) hypothesis.MeasureSizes(objective);
-    HypothesisSet variants;
-    variants.Begin({std::move(hypothesis)});
-    TryAllLimbs(objective, variants);
-    for (Hypothesis& variant : variants.all()) {
-      if (!known) {
-        variant.sizes.emplace(search.body(candidates[i].body));
-        variant.MeasureSizes(objective);
-      }
-      found.push_back(std::move(variant));
-    }
   }
   std::ranges::stable_sort(found, {}, [](const Hypothesis& one) { return one.fitness.Sum(); });
   if (!found.empty()) search.Remember(found.front().body.sizes(), found.front().filter.pose());
   return found;
 }
 
-void Scheduler::OfferPoses(Objective& objective, HypothesisSet& hypotheses) {
-  for (const PoseState& pose : poses_) hypotheses.Offer(objective, pose);
+void Scheduler::TryLimbs(std::size_t which, Objective& objective, const Hypothesis& present,
+                         HypothesisSet& hypotheses) {
+  varied_ = present;
   poses_.clear();
-}
-
-void Scheduler::TryLimbs(std::size_t which, Objective& objective, HypothesisSet& hypotheses) {
-  const Hypothesis& believed = hypotheses.best();
   if (which < kLimbEnds.size()) {
-    limbs_.Elsewhere(objective, believed, kLimbEnds[which], poses_);
+    limbs_.Elsewhere(objective, *varied_, kLimbEnds[which], poses_);
   } else {
-    limbs_.Both(objective, believed, kPairs[which - kLimbEnds.size()], poses_);
+    limbs_.Both(objective, *varied_, kLimbPairs[which - kBothArms], poses_);
   }
-  OfferPoses(objective, hypotheses);
+  for (const PoseState& pose : poses_) hypotheses.Vary(objective, *varied_, pose);
 }
 
-void Scheduler::TryAllLimbs(Objective& objective, HypothesisSet& hypotheses) {
-  const bool is_explained = hypotheses.best().fitness.unexplained_share < kBudget.unexplained_share;
-  for (std::size_t which = 0; which < kWholeStances; ++which) {
-    const bool is_first_pair = which == kLimbEnds.size();
-    if (!is_explained || is_first_pair) TryLimbs(which, objective, hypotheses);
-    hypotheses.BelieveLikeliest();
-  }
-  for (const LimbPair& pair : kPairs) {
-    limbs_.Exchanged(objective, hypotheses.best(), pair, poses_);
-    OfferPoses(objective, hypotheses);
-    hypotheses.BelieveLikeliest();
-  }
+bool Scheduler::TryNewcomer(Objective& objective, HypothesisSet& hypotheses) {
+  const auto is_on_trial = [](const Hypothesis& one) { return one.trials > 0; };
+  const auto newcomer = std::ranges::find_if(hypotheses.all(), is_on_trial);
+  if (newcomer == hypotheses.all().end()) return false;
+  const std::size_t which = kWholeStances - newcomer->trials--;
+  // Arms that explain everything may still be each other's.
+  const bool is_worth_it = !IsExplained(newcomer->fitness) || which == kBothArms;
+  if (is_worth_it) TryLimbs(which, objective, *newcomer, hypotheses);
+  return true;
 }
 
 void Scheduler::TryStances(const Frame& frame, HypothesisSet& hypotheses, bool sizes_are_known,
@@ -134,48 +123,31 @@ void Scheduler::Try(const Frame& frame, HypothesisSet& hypotheses, bool sizes_ar
   Objective& objective = frame.objective;
   rest_s_ -= dt_s;
   allowance_ = std::min(allowance_ + kBudget.per_s * dt_s, kBudget.most_saved);
-  double spent = objective.evaluations();
-  if (HandsMeetAnew(hypotheses.best())) {
-    limbs_.Exchanged(objective, hypotheses.best(), kArms, poses_);
-    OfferPoses(objective, hypotheses);
-  }
-  allowance_ -= objective.evaluations() - spent;
-  spent = objective.evaluations();
   while (allowance_ > 0) {
-    const Fitness fitness = hypotheses.best().fitness;
-    if (rest_s_ > 0 && !IsClearlyMore(fitness.unexplained_share, vain_share_)) return;
-    const bool is_doubtful = fitness.misfit > kBudget.doubtful_misfit || fitness.backwards > 0.5;
-    const bool is_unexplained = fitness.unexplained_share >= kBudget.unexplained_share;
-    if (next_ < kWholeStances && is_unexplained) TryLimbs(next_, objective, hypotheses);
-    if (next_ == kWholeStances && is_doubtful) TryStances(frame, hypotheses, sizes_are_known, dt_s);
-    if (next_++ == kWholeStances) {
-      next_ = 0;
-      const bool was_in_vain = hypotheses.changes() == changes_before_;
-      changes_before_ = hypotheses.changes();
-      vain_share_ = fitness.unexplained_share;
-      rest_after_s_ = was_in_vain ? std::clamp(2 * rest_after_s_, kBudget.shortest_rest_s,
-                                               kBudget.longest_rest_s)
-                                  : kBudget.shortest_rest_s;
-      rest_s_ = rest_after_s_;
-    }
-    const double now = objective.evaluations();
-    allowance_ -= now - spent;
-    spent = now;
+    const double before = objective.evaluations();
+    if (!TryNewcomer(objective, hypotheses) && !GoOn(frame, hypotheses, sizes_are_known, dt_s))
+      return;
+    allowance_ -= objective.evaluations() - before;
   }
 }
 
-bool Scheduler::HandsMeetAnew(const Hypothesis& believed) {
-  const PoseState& pose = believed.filter.pose();
-  const BodyPoints points_W = believed.body.PointsAt(believed.body.PostureAt(pose));
-  const Vector3 apart_W = points_W.col(static_cast<int>(Point::kFingertipsL)) -
-                          points_W.col(static_cast<int>(Point::kFingertipsR));
-  if (apart_W.norm() > believed.body.sizes().lower_arm) {
-    hands_met_T_.reset();
-    return false;
-  }
-  const Vector3 apart_T = pose.X_WT.R.transpose() * apart_W;
-  if (hands_met_T_ && (apart_T - *hands_met_T_).norm() < kBudget.hands_moved_mm) return false;
-  hands_met_T_ = apart_T;
+bool Scheduler::GoOn(const Frame& frame, HypothesisSet& hypotheses, bool sizes_are_known,
+                     double dt_s) {
+  const Fitness fitness = hypotheses.best().fitness;
+  if (rest_s_ > 0 && !IsClearlyMore(fitness.unexplained_share, vain_share_)) return false;
+  const bool is_doubtful = fitness.misfit > kBudget.doubtful_misfit || fitness.backwards > 0.5;
+  if (next_ < kWholeStances && !IsExplained(fitness))
+    TryLimbs(next_, frame.objective, hypotheses.best(), hypotheses);
+  if (next_ == kWholeStances && is_doubtful) TryStances(frame, hypotheses, sizes_are_known, dt_s);
+  if (next_++ < kWholeStances) return true;
+  next_ = 0;
+  const bool was_in_vain = hypotheses.changes() == changes_before_;
+  changes_before_ = hypotheses.changes();
+  vain_share_ = fitness.unexplained_share;
+  rest_after_s_ =
+      was_in_vain ? std::clamp(2 * rest_after_s_, kBudget.shortest_rest_s, kBudget.longest_rest_s)
+                  : kBudget.shortest_rest_s;
+  rest_s_ = rest_after_s_;
   return true;
 }
 

@@ -18,9 +18,9 @@ double EffortWithin(double dt_s);
 /// time.
 ///
 /// While no part explains some rays, each arm and leg is tried elsewhere, then both arms and both
-/// legs. If the fit is bad or the person faces backwards, whole stances are tried. Rounds without a
-/// change of mind are repeated after longer and longer rests. Arms whose hands are close together
-/// are tried exchanged, even if everything is explained, and again whenever the hands have moved.
+/// legs. If the fit is bad or the person faces backwards, whole stances are tried. Whoever was just
+/// found has all limbs tried first. Rounds without a change of mind are repeated after longer and
+/// longer rests.
 class Scheduler {
  public:
   explicit Scheduler(const BodyTable& table)
@@ -49,25 +49,28 @@ class Scheduler {
 
  private:
   StanceSearch& SearchFor(const std::optional<BodySizes>& known);
-  void TryAllLimbs(Objective& objective, HypothesisSet& hypotheses);
   // Tries one limb, or a pair after the limbs, elsewhere.
-  void TryLimbs(std::size_t which, Objective& objective, HypothesisSet& hypotheses);
+  void TryLimbs(std::size_t which, Objective& objective, const Hypothesis& present,
+                HypothesisSet& hypotheses);
+  // Tries a limb of a hypothesis that is on trial; false: there is none.
+  bool TryNewcomer(Objective& objective, HypothesisSet& hypotheses);
+  // Goes on with the present round; false: it rests.
+  bool GoOn(const Frame& frame, HypothesisSet& hypotheses, bool sizes_are_known, double dt_s);
   void TryStances(const Frame& frame, HypothesisSet& hypotheses, bool sizes_are_known, double dt_s);
-  void OfferPoses(Objective& objective, HypothesisSet& hypotheses);
-  bool HandsMeetAnew(const Hypothesis& believed);
 
   BodyTable table_;
   StanceSearch strangers_;
   std::optional<StanceSearch> acquainted_;  ///< For a person of known sizes.
   LimbProposals limbs_;
   std::vector<PoseState> poses_;
-  std::size_t next_ = 0;                ///< Limb; pair after the limbs; stances at the end.
-  double allowance_ = 0;                ///< Evaluations that may be spent.
-  double rest_s_ = 0;                   ///< Until the next round,
-  double vain_share_ = 0;               ///< unless clearly more than this is unexplained.
-  double rest_after_s_ = 0;             ///< Length of the last rest.
-  int changes_before_ = 0;              ///< Changes of mind before this round.
-  std::optional<Vector3> hands_met_T_;  ///< From right to left, when exchanged arms were tried.
+  std::optional<Hypothesis> varied_;  ///< Only to reuse its memory.
+  bool is_new_ = true;                ///< This is the first round.
+  std::size_t next_ = 0;              ///< Limb; pair after the limbs; stances at the end.
+  double allowance_ = 0;              ///< Evaluations that may be spent.
+  double rest_s_ = 0;                 ///< Until the next round,
+  double vain_share_ = 0;             ///< unless clearly more than this is unexplained.
+  double rest_after_s_ = 0;           ///< Length of the last rest.
+  int changes_before_ = 0;            ///< Changes of mind before this round.
 };
 
 }  // namespace mocap

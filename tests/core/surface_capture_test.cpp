@@ -188,7 +188,7 @@ TEST(DefaultBody, IsFollowedWithoutAllocatingOnceItRuns) {
       capture->Update({seen[frame].hull, seen[frame].outlines}, now_ns += kFrameNs);
     }
   };
-  for (int i = 0; i < 4; ++i) walk_to_and_fro();
+  for (int i = 0; i < 6; ++i) walk_to_and_fro();
   EXPECT_GT(capture->acquisition_frames(), 0);
   const std::int64_t before = Allocations();
   EXPECT_GT(before, 0);

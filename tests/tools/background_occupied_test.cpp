@@ -255,7 +255,7 @@ std::pair<double, int> TrackedWithin(const fs::path& take) {
   return {error_mm, static_cast<int>(tracked)};
 }
 
-TEST(StayedStudio, SomebodyWhoStoodBeforeAWallAllTheTimeIsUnknownAndTrackingIsAsInTheEmptyRoom) {
+TEST(StayedStudio, SomebodyWhoStoodBeforeAWallAllTheTimeIsUnknownAndTrackingIsNoWorse) {
   const testing::TemporaryFolder folder;
   const TakeLayout minute{folder.path() / "minute"}, walk{folder.path() / "walk"};
   const std::string studio = "--width 320 --height 240 --cameras 5 --seed 4";
@@ -278,7 +278,7 @@ TEST(StayedStudio, SomebodyWhoStoodBeforeAWallAllTheTimeIsUnknownAndTrackingIsAs
   fs::copy(minute.Background(), walk.Background(), fs::copy_options::recursive);
   const auto [learned_mm, learned_tracked] = TrackedWithin(walk.folder);
   EXPECT_GE(learned_tracked, tracked - 1);
-  EXPECT_NEAR(learned_mm, error_mm, 0.1 * error_mm);
+  EXPECT_LT(learned_mm, 1.1 * error_mm);
 }
 
 TEST_F(WalkedStudio, WhatWasUnknownIsLearnedOnceItIsSeen) {

@@ -177,11 +177,13 @@ TEST_F(Odds, AgainstAPoseStayWhenItIsProposedAgain) {
   HypothesisSet set;
   set.Begin({ahead});
   set.Follow(blind_, evidence_.cloud, 0.01);
-  set.Offer(blind_, turned);
+  Hypothesis present = set.best();
+  set.Vary(blind_, present, turned);
   for (int i = 0; i < 9; ++i) set.Follow(blind_, evidence_.cloud, 0.01);
   ASSERT_EQ(set.all().size(), 2u);
   const double probability = set.ProbabilityOf(set.best());
-  set.Offer(blind_, turned);
+  present = set.best();
+  set.Vary(blind_, present, turned);
   EXPECT_EQ(set.all().size(), 2u);
   EXPECT_GE(set.ProbabilityOf(set.best()), probability);
 }
@@ -228,6 +230,25 @@ TEST_F(Odds, DoNotChangeWhileTheClockStandsStill) {
   EXPECT_NEAR(set.all()[1].nats, 1, 1e-9);
 }
 
+TEST_F(Odds, EndNobodyWhoIsOnTrial) {
+  Hypothesis newcomer = Aside(500, 30);
+  newcomer.trials = 1;
+  HypothesisSet set = SetWith({newcomer});
+  EXPECT_EQ(set.all().size(), 2u);
+  set.all()[1].trials = 0;
+  set.Judge();
+  EXPECT_EQ(set.all().size(), 1u);
+}
+
+TEST_F(Odds, OfATrialAreThoseOfThePresentFrame) {
+  Hypothesis newcomer = Aside(500, 5);
+  newcomer.trials = 1;
+  HypothesisSet set = SetWith({newcomer});
+  set.Follow(blind_, evidence_.cloud, 0.1);
+  ASSERT_EQ(set.all().size(), 2u);
+  EXPECT_NEAR(set.all()[1].nats, set.all()[0].nats, 1e-3) << "they explain the same";
+}
+
 class Followed : public FittedBody {
  protected:
   HypothesisSet Begin(const PoseState& pose) {
@@ -237,11 +258,15 @@ class Followed : public FittedBody {
   }
   HypothesisSet RaisedIsBelieved(const PoseState& begin, const PoseState& offered) {
     HypothesisSet set = Begin(begin);
-    set.Offer(objective_, offered);
+    VaryBest(set, offered);
     for (int i = 0; i < 6; ++i) Follow(set, 1.0 / 30);
     EXPECT_LT(Error(set.best().filter.pose(), raised_), 15);
     EXPECT_GT(set.ProbabilityOf(set.best()), 0.95);
     return set;
+  }
+  void VaryBest(HypothesisSet& set, const PoseState& pose) {
+    Hypothesis present = set.best();
+    set.Vary(objective_, present, pose);
   }
   void Follow(HypothesisSet& set, double dt_s) { set.Follow(objective_, evidence_.cloud, dt_s); }
 
@@ -254,6 +279,25 @@ TEST_F(Followed, APoseThatExplainsMoreIsBelieved) {
   RaisedIsBelieved(hanging_, raised_);
 }
 
+TEST_F(Followed, APoseThatExplainsMoreTakesOverTheTrials) {
+  See(raised_);
+  HypothesisSet set;
+  Hypothesis newcomer = HypothesisAt(hanging_);
+  newcomer.Fit(objective_);
+  newcomer.trials = 5;
+  set.Begin({newcomer});
+  Hypothesis present = set.best();
+  set.Vary(objective_, present, raised_);
+  int on_trial = 0;
+  for (const Hypothesis& one : set.all()) {
+    if (one.trials == 0) continue;
+    ++on_trial;
+    EXPECT_EQ(one.trials, 5);
+    EXPECT_LT(Error(one.filter.pose(), raised_), 15);
+  }
+  EXPECT_EQ(on_trial, 1);
+}
+
 TEST_F(Followed, APoseThatExplainsLessIsNot) {
   See(raised_);
   EXPECT_EQ(RaisedIsBelieved(raised_, hanging_).all().size(), 1u);
@@ -262,7 +306,7 @@ TEST_F(Followed, APoseThatExplainsLessIsNot) {
 TEST_F(Followed, APoseThatBecomesTheBelievedOneIsGivenUp) {
   See(hanging_);
   HypothesisSet set = Begin(hanging_);
-  set.Offer(objective_, Standing({.arm_l = {.raise = -70}}));
+  VaryBest(set, Standing({.arm_l = {.raise = -70}}));
   EXPECT_EQ(set.all().size(), 1u);
 }
 
@@ -308,7 +352,7 @@ TEST_F(Followed, TheSameInputGivesTheSameBits) {
   See(raised_);
   HypothesisSet one = Begin(hanging_), other = Begin(hanging_);
   for (HypothesisSet* set : {&one, &other}) {
-    set->Offer(objective_, Standing({.arm_l = {.raise = 20, .elbow = 30}}));
+    VaryBest(*set, Standing({.arm_l = {.raise = 20, .elbow = 30}}));
     for (int i = 0; i < 3; ++i) Follow(*set, 1.0 / 30);
   }
   ASSERT_EQ(one.all().size(), other.all().size());

@@ -124,7 +124,10 @@ TEST_F(Acquisition, LegsAreInsideASkirtAndNotAtItsEdges) {
 TEST_F(Acquisition, FollowsBothFacingsForSomeTimeAtMost) {
   const PoseState truth = Upright(body_.sizes(), {});
   Find(body_, truth, 1);
-  for (int i = 0; i < 25; ++i) hypotheses_.Follow(objective_, evidence_.cloud, 0.1);
+  for (int i = 0; i < 25; ++i) {
+    hypotheses_.Follow(objective_, evidence_.cloud, 0.1);
+    scheduler_.Try(Frame(), hypotheses_, true, 0.1);
+  }
   for (const Hypothesis& hypothesis : hypotheses_.all())
     EXPECT_GT(hypothesis.filter.pose().X_WT.R.col(0).dot(truth.X_WT.R.col(0)), 0.9);
   EXPECT_GT(hypotheses_.ProbabilityOf(hypotheses_.best()), 0.9);

@@ -61,7 +61,7 @@ TEST_F(Proposed, OnlyTheLimbDiffersAndItsEndIsElsewhere) {
 TEST_F(Proposed, BothLegsOfAStrideAreFound) {
   const PoseState truth = Standing({.leg_l = kAhead, .leg_r = kBehind});
   See(truth);
-  proposals_.Both(objective_, Unfitted(Standing({})), kLegs, poses_);
+  proposals_.Both(objective_, Unfitted(Standing({})), kLimbPairs[1], poses_);
   ASSERT_FALSE(poses_.empty());
   EXPECT_LT(BestError(truth), 15);
 }
@@ -70,35 +70,8 @@ TEST_F(Proposed, BothArmsBeforeTheChestAreFound) {
   constexpr ArmStance kBeforeChest{.forward = 40, .elbow = 90};
   const PoseState truth = Standing({.arm_l = kBeforeChest, .arm_r = kBeforeChest});
   See(truth);
-  proposals_.Both(objective_, Unfitted(Standing({})), kArms, poses_);
+  proposals_.Both(objective_, Unfitted(Standing({})), kLimbPairs[0], poses_);
   EXPECT_LT(BestError(truth), 15);
-}
-
-TEST_F(Proposed, CrossedLegsAreToldFromStraightOnesThatLookAlike) {
-  constexpr LegStance kFront{.hip = 10, .spread = -8, .knee = 40};
-  constexpr LegStance kBack{.hip = -10, .spread = -8, .knee = 40};
-  const PoseState truth = Standing({.leg_l = kFront, .leg_r = kBack});
-  See(truth);
-  const PoseState crossed = FitFrom(Standing({.leg_l = kBack, .leg_r = kFront}));
-  ASSERT_GT(Error(crossed, truth), 40);
-  ASSERT_LT(At(crossed).unexplained_share, 0.005);
-  proposals_.Exchanged(objective_, Unfitted(crossed), kLegs, poses_);
-  ASSERT_EQ(poses_.size(), 1u);
-  EXPECT_LT(Error(FitFrom(poses_.front()), truth), 15);
-}
-
-TEST_F(Proposed, ExchangedHandsAreOnTheOthersSide) {
-  const PoseState present =
-      Standing({.arm_l = {.raise = -10, .forward = 90}, .arm_r = {.raise = -70, .forward = 80}});
-  See(present);
-  proposals_.Exchanged(objective_, Unfitted(present), kArms, poses_);
-  ASSERT_EQ(poses_.size(), 1u);
-  const auto left_of_right_W = [&](const PoseState& pose) -> Vector3 {
-    const BodyPoints points_W = body_.PointsAt(body_.PostureAt(pose));
-    return points_W.col(static_cast<int>(Point::kFingertipsL)) -
-           points_W.col(static_cast<int>(Point::kFingertipsR));
-  };
-  EXPECT_LT(left_of_right_W(poses_.front()).dot(left_of_right_W(present)), 0);
 }
 
 TEST_F(Proposed, TakeNoMemoryTheSecondTime) {
@@ -108,10 +81,7 @@ TEST_F(Proposed, TakeNoMemoryTheSecondTime) {
   const auto propose = [&] {
     poses_.clear();
     for (const Segment end : kLimbEnds) proposals_.Elsewhere(objective_, lost, end, poses_);
-    for (const LimbPair& pair : {kArms, kLegs}) {
-      proposals_.Both(objective_, lost, pair, poses_);
-      proposals_.Exchanged(objective_, lost, pair, poses_);
-    }
+    for (const LimbPair& pair : kLimbPairs) proposals_.Both(objective_, lost, pair, poses_);
   };
   propose();
   const std::int64_t before = Allocations();

@@ -86,17 +86,6 @@ TEST_F(Schedule, LegsThatTookEachOthersPlaceAreToldApart) {
   EXPECT_LT(ErrorAfter(exchanged, truth, kAtTenHz_s), 15);
 }
 
-TEST_F(Schedule, ForearmsThatCrossedAreNotTakenForHandsThatTouched) {
-  constexpr ArmStance kCrossed{.raise = -45, .forward = 100, .twist = 40, .elbow = 40};
-  constexpr ArmStance kApart{.raise = -45, .forward = 80, .twist = 20, .elbow = 5};
-  const PoseState truth = Standing({.arm_l = kCrossed, .arm_r = kCrossed});
-  See(truth);
-  const PoseState exchanged = FitFrom(Standing({.arm_l = kApart, .arm_r = kApart}));
-  ASSERT_GT(Error(exchanged, truth), 40);
-  ASSERT_LT(At(exchanged).unexplained_share, 0.01);
-  EXPECT_LT(ErrorAfter(exchanged, truth, kAtTenHz_s), 15);
-}
-
 TEST_F(Schedule, ARightPoseIsLeftAlone) {
   const PoseState truth = Standing({.arm_l = kArmOut, .leg_r = kStep});
   for (const double period_s : {kAtThirtyHz_s, kAtTenHz_s}) {
