@@ -32,8 +32,8 @@ std::vector<std::string> CsvColumns(const BodyRecord& body) {
   columns.insert(columns.begin(), {"time_s", "utime_us"});
   for (const std::string_view name : kCoordinateNames)
     columns.push_back(fmt::format("{}_deg", name));
-  for (const JointRecord& joint : body.joints) columns.push_back(JointColumn(joint.name));
-  for (const std::string_view point : kPointNames) columns.push_back(DeviationColumn(point));
+  for (const FurtherColumn& column : FurtherColumns(body, ListedJoints::kAll))
+    columns.push_back(column.name);
   return columns;
 }
 
@@ -41,6 +41,7 @@ ExportRemarks WriteCsv(const ExportScene& scene, std::ostream& out) {
   const Result& result = scene.subjects.front().result;
   out << fmt::format("{}\n", fmt::join(CsvColumns(result.body), ","));
   const std::vector<BodyAngles> frames = AnglesOf(result);
+  const auto further = FurtherColumns(result.body, ListedJoints::kAll);
   auto angles = frames.begin();
   for (const PoseRow& row : result.poses) {
     const auto since_first_ns =
@@ -55,8 +56,7 @@ ExportRemarks WriteCsv(const ExportScene& scene, std::ostream& out) {
     } else {
       line.append(kCoordinateNames.size(), ',');
     }
-    for (std::size_t i = 0; i < result.body.joints.size(); ++i) AppendJoint(row, i, line);
-    AppendDeviations(row, line);
+    AppendFurther(row, further, line);
     out << line << '\n';
   }
   return {};

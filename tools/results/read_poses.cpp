@@ -5,6 +5,7 @@
 #include <optional>
 #include <span>
 #include <string_view>
+#include <utility>
 
 #include "core/errors.h"
 #include "drivers/quoted.h"
@@ -45,8 +46,8 @@ CaptureState ReadState(RowReader& row) {
 /// A table's columns, and where those are that not every result has.
 struct PoseColumns {
   std::vector<std::string> names;
-  std::vector<std::size_t> joints;  ///< Of those that are none of the paper's sixteen.
-  std::array<std::optional<std::size_t>, kPointCount> deviations;
+  /// Those of FurtherColumns that the table has, each with its place in the table.
+  std::vector<std::pair<FurtherColumn, std::size_t>> further;
 };
 
 /// Removes joints beyond the paper's sixteen from the body of an older result.
@@ -63,17 +64,14 @@ PoseColumns FindColumns(std::vector<std::string> names, BodyRecord& body, const 
   const bool is_older = names.size() == usual;
   if (is_older)
     std::erase_if(body.joints, [](const auto& joint) { return joint.paper_angle == 0; });
-  for (const JointRecord& joint : body.joints) {
-    if (joint.paper_angle > 0) continue;
-    const std::string column = JointColumn(joint.name);
-    const std::optional<std::size_t> place = place_of(column);
-    if (!place)
-      lines.Fail("has no column " + Quoted(column) +
+  for (const FurtherColumn& column : FurtherColumns(body, ListedJoints::kBeyondPaper)) {
+    const std::optional<std::size_t> place = place_of(column.name);
+    if (place) {
+      columns.further.emplace_back(column, *place);
+    } else if (column.is_needed) {
+      lines.Fail("has no column " + Quoted(column.name) +
                  "; expected it, as [joints] columns of body.toml names it");
-    columns.joints.push_back(*place);
-  }
-  for (int i = 0; i < kPointCount; ++i) {
-    columns.deviations[i] = place_of(DeviationColumn(kPointNames[i]));
+    }
   }
   columns.names = std::move(names);
   return columns;
@@ -87,14 +85,14 @@ double NumberOrNothing(const TableRow& cells, std::size_t column) {
 void ReadFurther(const TableRow& cells, const PoseColumns& columns, const BodyRecord& body,
                  PoseRow& row) {
   row.joint_rad.resize(static_cast<Eigen::Index>(body.joints.size()));
-  auto place = columns.joints.begin();
   for (Eigen::Index i = 0; i < row.joint_rad.size(); ++i) {
     const int angle = body.joints[static_cast<std::size_t>(i)].paper_angle;
-    row.joint_rad[i] =
-        angle > 0 ? row.paper.theta_rad[angle - 1] : NumberOrNothing(cells, *place++);
+    if (angle > 0) row.joint_rad[i] = row.paper.theta_rad[angle - 1];
   }
-  for (int i = 0; i < kPointCount; ++i) {
-    if (columns.deviations[i]) row.point_std_mm[i] = NumberOrNothing(cells, *columns.deviations[i]);
+  for (const auto& [column, place] : columns.further) {
+    const double number = NumberOrNothing(cells, place);
+    if (column.is_share && (number < 0 || number > 1)) cells.Fail(place, "a number from 0 to 1");
+    column.set_number(row, column.place, number);
   }
 }
 

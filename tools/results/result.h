@@ -29,6 +29,8 @@ struct PoseRow {
   PointStds point_std_mm = PointStds::Constant(std::numeric_limits<double>::quiet_NaN());
   /// In the order of BodyRecord::joints; NaN: not known. Empty if it was measured for another body.
   JointAngles joint_rad = {};
+  /// Of the pose, 0 to 1; NaN: not known.
+  double probability = std::numeric_limits<double>::quiet_NaN();
   double residual_mm = 0;
   int voxels = 0;
   /// Bit k: camera k was used, of the first seven; 0: not known. Only from logs.

@@ -6,6 +6,32 @@
 #include "tools/results/fixed_text.h"
 
 namespace mocap {
+namespace {
+
+double JointIn(const PoseRow& row, std::size_t place) {
+  const auto joint = static_cast<Eigen::Index>(place);
+  return joint < row.joint_rad.size() ? row.joint_rad[joint] : std::nan("");
+}
+
+void SetJointIn(PoseRow& row, std::size_t place, double rad) {
+  row.joint_rad[static_cast<Eigen::Index>(place)] = rad;
+}
+
+double DeviationIn(const PoseRow& row, std::size_t point) {
+  return row.point_std_mm[static_cast<Eigen::Index>(point)];
+}
+
+void SetDeviationIn(PoseRow& row, std::size_t point, double mm) {
+  row.point_std_mm[static_cast<Eigen::Index>(point)] = mm;
+}
+
+double ProbabilityIn(const PoseRow& row, std::size_t) { return row.probability; }
+
+void SetProbabilityIn(PoseRow& row, std::size_t, double probability) {
+  row.probability = probability;
+}
+
+}  // namespace
 
 std::vector<std::string> ResultColumns() {
   std::vector<std::string> columns = {
@@ -20,12 +46,28 @@ std::vector<std::string> ResultColumns() {
   return columns;
 }
 
-std::vector<std::string> FurtherColumns(const BodyRecord& body) {
-  std::vector<std::string> columns;
-  for (const JointRecord& joint : body.joints) {
-    if (joint.paper_angle == 0) columns.push_back(JointColumn(joint.name));
+std::vector<FurtherColumn> FurtherColumns(const BodyRecord& body, ListedJoints joints) {
+  std::vector<FurtherColumn> columns;
+  for (std::size_t i = 0; i < body.joints.size(); ++i) {
+    if (joints == ListedJoints::kBeyondPaper && body.joints[i].paper_angle > 0) continue;
+    columns.push_back({.name = JointColumn(body.joints[i].name),
+                       .decimals = 6,
+                       .is_needed = true,
+                       .place = i,
+                       .number = JointIn,
+                       .set_number = SetJointIn});
   }
-  for (const std::string_view point : kPointNames) columns.push_back(DeviationColumn(point));
+  for (std::size_t i = 0; i < kPointNames.size(); ++i) {
+    columns.push_back({.name = DeviationColumn(kPointNames[i]),
+                       .place = i,
+                       .number = DeviationIn,
+                       .set_number = SetDeviationIn});
+  }
+  columns.push_back({.name = "probability",
+                     .decimals = 4,
+                     .is_share = true,
+                     .number = ProbabilityIn,
+                     .set_number = SetProbabilityIn});
   return columns;
 }
 
@@ -57,14 +99,13 @@ void AppendPose(const PoseRow& row, std::string& line) {
   AppendCell(row.residual_mm, 3, line);
 }
 
-void AppendJoint(const PoseRow& row, std::size_t joint, std::string& line) {
-  const auto place = static_cast<Eigen::Index>(joint);
-  const bool is_known = row.has_pose && place < row.joint_rad.size();
-  AppendCell(is_known ? row.joint_rad[place] : std::nan(""), 6, line);
-}
-
-void AppendDeviations(const PoseRow& row, std::string& line) {
-  for (const double mm : row.point_std_mm) AppendCell(row.has_pose ? mm : std::nan(""), 3, line);
+void AppendFurther(const PoseRow& row, std::span<const FurtherColumn> columns, std::string& line) {
+  if (!row.has_pose) {
+    line.append(columns.size(), ',');
+    return;
+  }
+  for (const FurtherColumn& column : columns)
+    AppendCell(column.number(row, column.place), column.decimals, line);
 }
 
 }  // namespace mocap

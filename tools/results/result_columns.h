@@ -1,6 +1,8 @@
 // The columns of poses.csv, and their cells.
 #pragma once
 
+#include <cstddef>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -15,9 +17,23 @@ inline constexpr std::size_t kPoseCells = 3 + 4 + kPaperAngleCount + 3 * kPointC
 /// Names of the columns that every result has, in order. torso_x_mm, torso_y_mm and torso_z_mm
 /// appear twice: first as the origin of the torso's frame, then as the point torso.
 std::vector<std::string> ResultColumns();
-/// Names of the columns that may follow: angles of the joints beyond the paper's sixteen, and the
-/// deviations of the 23 points.
-std::vector<std::string> FurtherColumns(const BodyRecord& body);
+
+/// A column that may follow: not every result has it, and a cell without a number is empty.
+struct FurtherColumn {
+  std::string name;
+  int decimals = 3;
+  bool is_needed = false;  ///< The body names it.
+  bool is_share = false;   ///< Its numbers are 0 to 1.
+  std::size_t place = 0;   ///< Among the numbers of its kind.
+  /// Returns the number of a row with a pose; NaN: not known.
+  double (*number)(const PoseRow& row, std::size_t place) = nullptr;
+  void (*set_number)(PoseRow& row, std::size_t place, double number) = nullptr;
+};
+
+/// Joints that have columns of their own.
+enum class ListedJoints { kBeyondPaper, kAll };
+/// All such columns in order: angles of joints, deviations of the 23 points, probability.
+std::vector<FurtherColumn> FurtherColumns(const BodyRecord& body, ListedJoints joints);
 
 /// The column of a joint that is none of the paper's sixteen: <name>_rad.
 std::string JointColumn(std::string_view joint);
@@ -30,9 +46,7 @@ std::string PaperAngleColumn(int paper_angle);
 void AppendCell(double value, int decimals, std::string& line);
 /// Appends the cells from the torso's origin to residual_mm; empty ones if the row has no pose.
 void AppendPose(const PoseRow& row, std::string& line);
-/// Appends the angle of a joint, by its place in BodyRecord::joints.
-void AppendJoint(const PoseRow& row, std::size_t joint, std::string& line);
-/// Appends the deviations of the 23 points.
-void AppendDeviations(const PoseRow& row, std::string& line);
+/// Appends the cells of further columns; empty ones if the row has no pose.
+void AppendFurther(const PoseRow& row, std::span<const FurtherColumn> columns, std::string& line);
 
 }  // namespace mocap

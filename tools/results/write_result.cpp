@@ -28,17 +28,15 @@ constexpr std::array<BodySizeField, 6> kLengths = {{{"torso", &BodySizes::torso}
 std::string PosesCsv(const Result& result) {
   std::string text;
   for (const std::string& column : ResultColumns()) text += (text.empty() ? "" : ",") + column;
-  for (const std::string& column : FurtherColumns(result.body)) text += ',' + column;
+  const auto further = FurtherColumns(result.body, ListedJoints::kBeyondPaper);
+  for (const FurtherColumn& column : further) text += ',' + column.name;
   text += '\n';
   for (const PoseRow& row : result.poses) {
     text += std::to_string(row.frame) + ',' + std::to_string(row.timestamp_ns) + ',';
     text += kCaptureStateNames[static_cast<std::size_t>(row.state)];
     AppendPose(row, text);
     text += ',' + std::to_string(row.voxels);
-    for (std::size_t i = 0; i < result.body.joints.size(); ++i) {
-      if (result.body.joints[i].paper_angle == 0) AppendJoint(row, i, text);
-    }
-    AppendDeviations(row, text);
+    AppendFurther(row, further, text);
     text += '\n';
   }
   return text;
@@ -114,6 +112,7 @@ PoseRow PoseRowOf(std::int64_t frame, std::int64_t capture_ns, const CaptureResu
     row.point_std_mm = result.point_std_mm;
     row.joint_rad = result.pose.theta;
     row.residual_mm = result.residual_mm;
+    if (result.probability) row.probability = *result.probability;
   }
   row.voxels = result.voxels;
   return row;

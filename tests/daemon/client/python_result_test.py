@@ -102,17 +102,19 @@ class ReadResultTest(unittest.TestCase):
         result = self.result()
         self.assertEqual(result.joint_names, mocapd.PAPER_JOINT_NAMES)
         np.testing.assert_array_equal(result.angle("elbow_l_z"), result.theta_rad[:, 8])
-        self.assertTrue(np.isnan(result.points_std_mm).all())
+        self.assertTrue(np.isnan(result.points_std_mm).all() and np.isnan(result.probability).all())
 
     def test_further_columns_are_found_by_name(self):
-        result = self.result(("probability", "deviation_head_mm", "wrist_l_x_rad"), ("", "6.5", "-0.5"), self.BODY + self.JOINTS)
+        result = self.result(("probability", "deviation_head_mm", "wrist_l_x_rad"), ("0.625", "6.5", "-0.5"), self.BODY + self.JOINTS)
+        np.testing.assert_array_equal(result.probability, [0.625])
         self.assertEqual(result.joint_names, ("knee_r_y", "wrist_l_x"))
         np.testing.assert_array_equal(result.angle("wrist_l_x"), [-0.5])
         np.testing.assert_array_equal(result.angle("knee_r_y"), result.theta_rad[:, 15])
         self.assertEqual(result.points_std_mm[0, 1], 6.5)
 
     def test_what_has_no_value_is_nan(self):
-        result = self.result(("deviation_head_mm", "wrist_l_x_rad"), ("", ""), self.BODY + self.JOINTS)
+        result = self.result(("probability", "deviation_head_mm", "wrist_l_x_rad"), ("", "", ""), self.BODY + self.JOINTS)
+        self.assertTrue(np.isnan(result.probability[0]))
         self.assertTrue(np.isnan(result.points_std_mm[0, 1]) and np.isnan(result.angle("wrist_l_x")[0]))
 
     def test_a_column_that_the_body_names_and_the_table_lacks_is_told(self):

@@ -35,6 +35,7 @@ Result TwoFrames() {
   result.body.joints = {{"wrist_l_x"}, {"knee_r_y", 16}};
   row.joint_rad = Eigen::Vector2d(-0.5, 0.25);
   row.point_std_mm.setConstant(4.5);
+  row.probability = 0.625;
   row.residual_mm = 12.5;
   row.voxels = 4321;
   result.poses[1].frame = 8;
@@ -208,10 +209,12 @@ TEST(CsvWriter, NamesEveryColumnWithItsUnitAndFillsIt) {
   EXPECT_EQ(cell(1, "wrist_l_x_rad"), "-0.500000");
   EXPECT_EQ(cell(1, "knee_r_y_rad"), "0.250000");
   EXPECT_EQ(cell(1, "deviation_head_mm"), "4.500");
+  EXPECT_EQ(cell(1, "probability"), "0.6250");
   EXPECT_EQ(cell(2, "torso_x_mm"), "");
   EXPECT_EQ(cell(2, "knee_angle_r_deg"), "");
   EXPECT_EQ(cell(2, "knee_r_y_rad"), "");
   EXPECT_EQ(cell(2, "deviation_head_mm"), "");
+  EXPECT_EQ(cell(2, "probability"), "");
   EXPECT_EQ(cell(2, "residual_mm"), "");
   EXPECT_EQ(cell(2, "voxels"), "0");
 }

@@ -45,6 +45,7 @@ Result SomeResult() {
     row.residual_mm = 12.25;
     row.joint_rad = Eigen::Vector2d(-0.5, row.paper.theta_rad[15]);
     row.point_std_mm = PointStds::Constant(4.5);
+    if (i == 2) row.probability = 0.625;
   }
   return result;
 }
@@ -70,6 +71,8 @@ TEST(Result, ReadsBackWhatWasWritten) {
   EXPECT_EQ(row.voxels, 200);
   EXPECT_EQ(row.joint_rad, Eigen::Vector2d(-0.5, 2.25));
   EXPECT_EQ(row.point_std_mm, PointStds::Constant(4.5));
+  EXPECT_EQ(row.probability, 0.625);
+  EXPECT_TRUE(std::isnan(read.poses[1].probability)) << "the tracker could not tell";
   ASSERT_EQ(read.body.joints.size(), 2u);
   EXPECT_EQ(read.body.joints[0].name, "wrist_l_x");
   EXPECT_EQ(read.body.joints[0].paper_angle, 0);
@@ -86,11 +89,12 @@ TEST(Result, HasTheContractsColumns) {
                          "torso_axis_x,torso_axis_y,torso_axis_z,torso_angle_rad,theta_1_rad,"));
   EXPECT_THAT(csv, HasSubstr(",theta_16_rad,torso_x_mm,torso_y_mm,torso_z_mm,head_x_mm,"));
   EXPECT_THAT(csv, HasSubstr(",foot_r_z_mm,residual_mm,voxels,wrist_l_x_rad,deviation_torso_mm,"));
-  EXPECT_THAT(csv, HasSubstr(",deviation_foot_r_mm\n0,"));
+  EXPECT_THAT(csv, HasSubstr(",deviation_foot_r_mm,probability\n0,"));
   const std::string first_row = csv.substr(csv.find('\n') + 1, csv.find('\n'));
   EXPECT_THAT(first_row, StartsWith("0,1700000000000000000,searching,,,,"));
   const auto commas = [](const std::string& line) { return std::ranges::count(line, ','); };
-  EXPECT_EQ(commas(first_row.substr(0, first_row.find('\n'))), 3 + 7 + 16 + 69 + 2 + 1 + 23 - 1);
+  EXPECT_EQ(commas(first_row.substr(0, first_row.find('\n'))),
+            3 + 7 + 16 + 69 + 2 + 1 + 23 + 1 - 1);
 }
 
 /// Leaves only the first columns of each row.
@@ -115,6 +119,7 @@ TEST(Result, WithoutFurtherColumnsIsStillRead) {
   ASSERT_EQ(result.body.joints.size(), 1u) << "the other one has no column";
   EXPECT_EQ(result.poses[2].joint_rad[0], 2.25);
   EXPECT_TRUE(result.poses[2].point_std_mm.array().isNaN().all());
+  EXPECT_TRUE(std::isnan(result.poses[2].probability));
   // As results were before they had names of joints.
   const std::string body = ReadText(folder.path() / "body.toml");
   testing::WriteText(folder.path() / "body.toml", body.substr(0, body.find("\n[joints]")));
@@ -132,9 +137,10 @@ TEST(Result, FurtherColumnsAreFoundByTheirNames) {
   std::string text, line;
   std::getline(lines, line);
   text = line + ",probability,deviation_head_mm,wrist_l_x_rad\n";
-  while (std::getline(lines, line)) text += line + ",,6.5,\n";
+  while (std::getline(lines, line)) text += line + ",0.75,6.5,\n";
   testing::WriteText(file, text);
   const PoseRow row = ReadResult(folder.path()).poses.at(2);
+  EXPECT_EQ(row.probability, 0.75);
   EXPECT_EQ(row.point_std_mm[1], 6.5);
   EXPECT_TRUE(std::isnan(row.point_std_mm[0]));
   EXPECT_TRUE(std::isnan(row.joint_rad[0])) << "its cell is empty";
@@ -142,6 +148,14 @@ TEST(Result, FurtherColumnsAreFoundByTheirNames) {
   ReplaceInFile(file, "probability", "torso_x_mm");
   EXPECT_THAT(SetupErrorOf([&] { ReadResult(folder.path()); }),
               HasSubstr("poses.csv:1: has the column \"torso_x_mm\" a second time"));
+}
+
+TEST(Result, AProbabilityBeyondOneIsRefused) {
+  TemporaryFolder folder;
+  WriteResult(folder.path(), SomeResult());
+  ReplaceInFile(folder.path() / "poses.csv", "0.6250", "62.5");
+  EXPECT_THAT(SetupErrorOf([&] { ReadResult(folder.path()); }),
+              HasSubstr("poses.csv:4: probability is \"62.5\"; expected a number from 0 to 1"));
 }
 
 TEST(Result, AColumnThatTheBodyNamesAndTheTableLacksIsTold) {

@@ -47,6 +47,7 @@ class Result:
     points_mm: np.ndarray  #: n x 23 x 3, in the order of POINT_NAMES
     residual_mm: np.ndarray  #: n
     points_std_mm: np.ndarray  #: n x 23, standard deviation of each point along its worst axis; NaN in results without
+    probability: np.ndarray  #: n, of the pose, 0 to 1; NaN where the tracker could not tell, and in results without
     joint_names: tuple[str, ...]  #: as of live poses; in results without them, the paper's sixteen
     joints_rad: np.ndarray  #: n x joint_names
 
@@ -87,6 +88,7 @@ class Result:
         columns["residual_mm"] = self.residual_mm
         columns |= {f"{name}_rad": self.joints_rad[:, i] for i, name in enumerate(self.joint_names)}
         columns |= {f"deviation_{name}_mm": self.points_std_mm[:, i] for i, name in enumerate(POINT_NAMES)}
+        columns["probability"] = self.probability
         return columns
 
     def to_pandas(self) -> pandas.DataFrame:
@@ -118,8 +120,8 @@ def read_result(folder: Path) -> Result:
             raise ValueError(f"{poses}: line 1: is no header of poses.csv; expected {', '.join(COLUMNS[:4])} ... as mocap track writes it")
         columns = _joint_columns(poses, header, body)
         places = _Places(joints=[header.index(column) for column in columns.values()],
-                         deviations=[header.index(name) if name in header else None
-                                     for name in (f"deviation_{point}_mm" for point in POINT_NAMES)])
+                         deviations=[_place_in(header, f"deviation_{point}_mm") for point in POINT_NAMES],
+                         probability=_place_in(header, "probability"))
         for row in filter(None, reader):
             try:
                 if len(row) != len(header):
@@ -129,6 +131,10 @@ def read_result(folder: Path) -> Result:
                 raise ValueError(f"{poses}: line {reader.line_num}: {error}; expected a row of poses.csv") from error
     sizes = {name.removesuffix("_mm"): size for name, size in body.get("sizes", {}).items()}
     return rows.result(body["model"], body["stature_mm"], sizes, tuple(columns))
+
+
+def _place_in(header: list[str], column: str) -> int | None:
+    return header.index(column) if column in header else None
 
 
 def _read_body(file: pathlib.Path) -> dict[str, Any]:
@@ -281,6 +287,7 @@ class _Places(NamedTuple):
     """Where columns of poses.csv are that not every result has."""
     joints: list[int]
     deviations: list[int | None]
+    probability: int | None
 
 
 class _Rows:
@@ -303,7 +310,7 @@ class _Rows:
         self.poses.append((numbers(TORSO_PLACE, TORSO_PLACE + 3), numbers(TORSO_PLACE + 3, ANGLE_PLACE), np.array(float(row[ANGLE_PLACE])),
                            numbers(THETA_PLACE, POINT_PLACE), numbers(POINT_PLACE, RESIDUAL_PLACE).reshape(-1, 3),
                            np.array(float(row[RESIDUAL_PLACE])), np.array([number_or_none(place) for place in places.deviations]),
-                           np.array([number_or_none(place) for place in places.joints])))
+                           np.array(number_or_none(places.probability)), np.array([number_or_none(place) for place in places.joints])))
 
     def add_message(self, message: Any, utime: int, frame: int) -> None:
         state = state_name(message.state)
@@ -315,10 +322,10 @@ class _Rows:
         self.poses.append(None if state != TRACKING else (
             np.array(message.torso_mm), np.array(message.torso_axis), np.array(message.torso_angle_rad),
             np.array(message.theta_rad), np.array(message.point_mm), np.array(message.residual_mm),
-            np.array(message.point_std_mm), np.array(message.joint_rad)))
+            np.array(message.point_std_mm), np.array(np.nan), np.array(message.joint_rad)))
 
     def result(self, model: str, stature_mm: float, sizes_mm: dict[str, float], joint_names: tuple[str, ...]) -> Result:
-        shapes = ((3,), (3,), (), (len(THETA_NAMES),), (len(POINT_NAMES), 3), (), (len(POINT_NAMES),), (len(joint_names),))
+        shapes = ((3,), (3,), (), (len(THETA_NAMES),), (len(POINT_NAMES), 3), (), (len(POINT_NAMES),), (), (len(joint_names),))
         columns = [np.full((len(self.heads), *shape), np.nan) for shape in shapes]
         for i, pose in enumerate(self.poses):
             if pose is None:
@@ -328,9 +335,9 @@ class _Rows:
                 if column[i].shape == value.shape:
                     column[i] = value
         frames, times, states = zip(*self.heads) if self.heads else ((), (), ())
-        torso_mm, axes, angles, theta, points, residual, deviations, joints = columns
+        torso_mm, axes, angles, theta, points, residual, deviations, probability, joints = columns
         rotation = np.array([rotation_matrix(*turn) for turn in zip(axes, angles)]).reshape(-1, 3, 3)
         return Result(model=model, stature_mm=stature_mm, sizes_mm=sizes_mm, frame=np.array(frames, dtype=np.int64),
                       timestamp_ns=np.array(times, dtype=np.int64), state=np.array(states, dtype=str), torso_mm=torso_mm,
                       torso_axis=axes, torso_angle_rad=angles, torso_rotation=rotation, theta_rad=theta, points_mm=points,
-                      residual_mm=residual, points_std_mm=deviations, joint_names=joint_names, joints_rad=joints)
+                      residual_mm=residual, points_std_mm=deviations, probability=probability, joint_names=joint_names, joints_rad=joints)
