@@ -10,6 +10,7 @@ namespace mocap {
 inline constexpr const char* kPoseChannel = "MOCAP_POSE";
 inline constexpr const char* kBodyChannel = "MOCAP_BODY";
 inline constexpr const char* kPeopleChannel = "MOCAP_PEOPLE";
+inline constexpr const char* kDetailsChannel = "MOCAP_DETAILS";
 inline constexpr const char* kStatusChannel = "MOCAP_STATUS";
 inline constexpr const char* kServiceChannel = "MOCAP_SERVICE";
 inline constexpr const char* kContrastChannel = "MOCAP_CONTRAST";

@@ -6,6 +6,7 @@ namespace {
 constexpr std::size_t kHash = 8;
 constexpr std::size_t kNumber = 8;  ///< int64_t, double
 constexpr std::size_t kPoint = 3 * kNumber;
+constexpr std::size_t kLeastText = 4 + 1;  ///< Its length and its end.
 constexpr std::size_t kPoints = 23;
 
 /// Skips over a message's fields without storing them.
@@ -105,6 +106,23 @@ bool HasSoundCounts(const person_body_t&, std::span<const std::uint8_t> bytes) {
   skimmer.Skip(kHash + 4);
   skimmer.Text();
   SkipBody(skimmer);
+  return skimmer.sound();
+}
+
+bool HasSoundCounts(const person_details_t&, std::span<const std::uint8_t> bytes) {
+  Skimmer skimmer(bytes);
+  // Time and frame number, person and place, state, probability.
+  skimmer.Skip(kHash + 2 * kNumber + 2 * 4 + 1 + kNumber);
+  const auto skip_named = [&skimmer](std::size_t bytes_each) {
+    const std::size_t count = skimmer.Count(kLeastText + bytes_each);
+    skimmer.Texts(count);
+    skimmer.Skip(count * bytes_each);
+  };
+  skip_named(kPoint + kNumber);
+  skip_named(2 * kNumber);
+  skip_named(kNumber);
+  skimmer.Skip(kNumber);
+  skimmer.Skip(kPoint * skimmer.Count(kPoint));
   return skimmer.sound();
 }
 

@@ -8,6 +8,7 @@
 #include <mocap/node_t.hpp>
 #include <mocap/people_t.hpp>
 #include <mocap/person_body_t.hpp>
+#include <mocap/person_details_t.hpp>
 #include <mocap/pose_t.hpp>
 #include <mocap/preview_t.hpp>
 #include <mocap/service_t.hpp>
@@ -27,6 +28,7 @@ bool HasSoundCounts(const pose_t& kind, std::span<const std::uint8_t> bytes);
 bool HasSoundCounts(const body_t& kind, std::span<const std::uint8_t> bytes);
 bool HasSoundCounts(const people_t& kind, std::span<const std::uint8_t> bytes);
 bool HasSoundCounts(const person_body_t& kind, std::span<const std::uint8_t> bytes);
+bool HasSoundCounts(const person_details_t& kind, std::span<const std::uint8_t> bytes);
 bool HasSoundCounts(const status_t& kind, std::span<const std::uint8_t> bytes);
 bool HasSoundCounts(const service_t& kind, std::span<const std::uint8_t> bytes);
 bool HasSoundCounts(const contrast_t& kind, std::span<const std::uint8_t> bytes);

@@ -1,6 +1,7 @@
 #include "daemon/messages/messages.h"
 
 #include <algorithm>
+#include <cmath>
 #include <string>
 #include <utility>
 
@@ -96,6 +97,35 @@ void FillPerson(const CaptureResult& result, const BodyModel& body, Message& mes
   message.voxels = result.voxels;
 }
 
+template <typename Column>
+void AssignPoint(const Column& p_W, std::vector<double>& to_mm) {
+  to_mm.assign({p_W[0], p_W[1], p_W[2]});
+}
+
+void FillPoints(const CaptureResult& result, int count, person_details_t& message) {
+  message.num_points = count;
+  message.point_name.resize(count);
+  message.point_mm.resize(count);
+  message.point_std_mm.resize(count);
+  for (int i = 0; i < count; ++i) {
+    message.point_name[i] = kPointNames[i];
+    AssignPoint(result.points_W.col(i), message.point_mm[i]);
+    message.point_std_mm[i] = result.point_std_mm[i];
+  }
+}
+
+void FillJoints(const PoseState& pose, const BodyTable& table, int count,
+                person_details_t& message) {
+  message.num_joints = count;
+  message.joint_name.resize(count);
+  message.joint_rad.resize(count);
+  message.joint_std_rad.assign(count, std::nan(""));
+  for (int i = 0; i < count; ++i) {
+    message.joint_name[i] = table.joints[i].name;
+    message.joint_rad[i] = pose.theta[i];
+  }
+}
+
 }  // namespace
 
 void FillPose(const TrackedSet& set, int cameras, pose_t& message) {
@@ -112,6 +142,29 @@ void FillPeople(const TrackedSet& set, int cameras, people_t& message) {
     message.people[i].name = set.people[i].name;
     FillPerson(set.people[i].capture->result(), set.people[i].capture->body(), message.people[i]);
   }
+}
+
+void FillDetails(const TrackedSet& set, std::size_t place, person_details_t& message) {
+  const CaptureResult& result = set.people[place].capture->result();
+  const BodyModel& body = set.people[place].capture->body();
+  const bool has_pose = result.state != CaptureState::kSearching;
+  const bool has_rival = has_pose && result.rival;
+  message.utime = set.capture_ns / kNsPerUs;
+  message.frame = set.frame;
+  message.person = set.people[place].id;
+  message.place = static_cast<std::int32_t>(place);
+  message.state = static_cast<std::int8_t>(result.state);
+  message.probability = has_pose ? result.probability.value_or(std::nan("")) : std::nan("");
+  FillPoints(result, has_pose ? kPointCount : 0, message);
+  FillJoints(result.pose, body.table(), has_pose ? body.joint_count() : 0, message);
+  message.num_contacts = 0;
+  message.contact_name.clear();
+  message.contact.clear();
+  message.rival_probability = has_rival ? result.rival->probability : 0;
+  message.num_rival_points = has_rival ? kPointCount : 0;
+  message.rival_point_mm.resize(message.num_rival_points);
+  for (int i = 0; i < message.num_rival_points; ++i)
+    AssignPoint(result.rival->points_W.col(i), message.rival_point_mm[i]);
 }
 
 void FillBody(const BodyModel& body, std::int64_t utime, body_t& message) {

@@ -5,6 +5,7 @@
 #include <mocap/body_t.hpp>
 #include <mocap/contrast_t.hpp>
 #include <mocap/people_t.hpp>
+#include <mocap/person_details_t.hpp>
 #include <mocap/pose_t.hpp>
 #include <mocap/service_t.hpp>
 #include <mocap/status_t.hpp>
@@ -24,6 +25,10 @@ void FillPose(const TrackedSet& set, int cameras, pose_t& message);
 
 /// Likewise for all people.
 void FillPeople(const TrackedSet& set, int cameras, people_t& message);
+
+/// Fills what people_t does not tell of one of the set's people.
+/// @param place  of the person in the set.
+void FillDetails(const TrackedSet& set, std::size_t place, person_details_t& message);
 
 void FillBody(const BodyModel& body, std::int64_t utime, body_t& message);
 

@@ -15,6 +15,7 @@ PosePublisher::PosePublisher(lcm::LCM& lcm, const LcmConfig& config, int cameras
       body_channel_(config.prefix + kBodyChannel),
       people_channel_(config.prefix + kPeopleChannel),
       bodies_channel_(config.prefix + kBodiesChannel),
+      details_channel_(config.prefix + kDetailsChannel),
       voxels_channel_(config.prefix + "MOCAP_VOXELS"),
       status_channel_(config.prefix + kStatusChannel),
       service_channel_(config.prefix + kServiceChannel),
@@ -56,6 +57,7 @@ void PosePublisher::OnSet(const TrackedSet& timeline_set) {
     FillBody(set.body, set.capture_ns / 1000, body_);
     Publish(body_channel_, body_);
   }
+  PublishDetails(set);
   FillPose(set, cameras_, pose_);
   pose_.publish_utime = TimeOfDayNs() / 1000;
   Publish(pose_channel_, pose_);
@@ -68,6 +70,13 @@ void PosePublisher::OnSet(const TrackedSet& timeline_set) {
   if (voxels_pacer_.IsDue(now_ns)) {
     FillVoxels(set, voxels_);
     Publish(voxels_channel_, voxels_);
+  }
+}
+
+void PosePublisher::PublishDetails(const TrackedSet& set) {
+  for (std::size_t place = 0; place < set.people.size(); ++place) {
+    FillDetails(set, place, details_);
+    Publish(details_channel_, details_);
   }
 }
 

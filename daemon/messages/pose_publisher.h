@@ -51,6 +51,7 @@ class PosePublisher : public PoseSink {
   template <typename Message>
   void Publish(const std::string& channel, const Message& message);
   TrackedSet InTimeOfDay(const TrackedSet& set) const;
+  void PublishDetails(const TrackedSet& set);
   void PublishPeople(const TrackedSet& set, bool body_is_due);
 
   LcmSender sender_;
@@ -58,8 +59,9 @@ class PosePublisher : public PoseSink {
   MessageTap* tap_ = nullptr;
   std::vector<std::uint8_t> bytes_;  ///< Of the outgoing message.
   std::vector<std::uint8_t> status_bytes_;
-  const std::string pose_channel_, body_channel_, people_channel_, bodies_channel_, voxels_channel_,
-      status_channel_, service_channel_, contrast_channel_, studio_channel_;
+  const std::string pose_channel_, body_channel_, people_channel_, bodies_channel_,
+      details_channel_, voxels_channel_, status_channel_, service_channel_, contrast_channel_,
+      studio_channel_;
   const int cameras_;
   const CaptureTimes times_;
   Pacer body_pacer_;
@@ -72,6 +74,7 @@ class PosePublisher : public PoseSink {
   body_t body_;
   people_t people_;
   person_body_t person_body_;
+  person_details_t details_;
   voxels_t voxels_;
   status_t status_;
   service_t service_;

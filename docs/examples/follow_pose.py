@@ -6,6 +6,7 @@ usage: follow_pose.py [URL [SECONDS [PREFIX]]]
 URL is LCM's; "" is its default, and file://LOG plays a log. Ends after so many seconds (10) without a pose. PREFIX stands before the channels' names:
 lcm.prefix of mocapd's configuration.
 """
+import math
 import sys
 
 import mocapd
@@ -15,7 +16,8 @@ def follow(url=None, seconds="10", prefix=""):
     for pose in mocapd.listen(url, prefix, timeout_s=float(seconds)):
         if pose.is_tracked:
             left, right = pose.point("fingertips_l"), pose.point("fingertips_r")
-            print("left hand %6.0f %6.0f %6.0f mm   right hand %6.0f %6.0f %6.0f mm" % (*left, *right), flush=True)
+            sure = "" if math.isnan(pose.probability) else "   %.0f %% sure" % (100 * pose.probability)
+            print("left hand %6.0f %6.0f %6.0f mm   right hand %6.0f %6.0f %6.0f mm%s" % (*left, *right, sure), flush=True)
 
 
 def main():

@@ -6,6 +6,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   mocap::DecodeMessage<mocap::body_t>(bytes);
   mocap::DecodeMessage<mocap::people_t>(bytes);
   mocap::DecodeMessage<mocap::person_body_t>(bytes);
+  mocap::DecodeMessage<mocap::person_details_t>(bytes);
   mocap::DecodeMessage<mocap::status_t>(bytes);
   mocap::DecodeMessage<mocap::service_t>(bytes);
   mocap::DecodeMessage<mocap::contrast_t>(bytes);

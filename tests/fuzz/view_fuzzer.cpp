@@ -24,9 +24,10 @@ class Feed {
   mocap::LiveFeed feed_{lcm_, "", "memq://", [](std::size_t, mocap::LiveMessage) {}};
 };
 
-constexpr std::array kChannels = {"MOCAP_POSE",    "MOCAP_BODY",    "MOCAP_VOXELS",  "MOCAP_STATUS",
-                                  "MOCAP_SERVICE", "MOCAP_STUDIO",  "MOCAP_PREVIEW", "MOCAP_PEOPLE",
-                                  "MOCAP_BODIES",  "MOCAP_UNKNOWN", "MOCAP_CONTRAST"};
+constexpr std::array kChannels = {"MOCAP_POSE",    "MOCAP_BODY",     "MOCAP_VOXELS",
+                                  "MOCAP_STATUS",  "MOCAP_SERVICE",  "MOCAP_STUDIO",
+                                  "MOCAP_PREVIEW", "MOCAP_PEOPLE",   "MOCAP_BODIES",
+                                  "MOCAP_UNKNOWN", "MOCAP_CONTRAST", "MOCAP_DETAILS"};
 
 void Ask(std::string_view text) {
   const mocap::RequestTarget target = mocap::ParseRequestTarget(text);

@@ -15,6 +15,7 @@
 #include "drivers/printable_text.h"
 #include "tools/results/channel_log.h"
 #include "tools/results/pose_log.h"
+#include "tools/results/set_details.h"
 
 namespace mocap {
 namespace {
@@ -72,6 +73,8 @@ class PeopleOfLog {
     return true;
   }
 
+  bool AddDetails(std::span<const std::uint8_t> bytes) { return details_.Add(bytes); }
+
   bool HasPeople() const {
     return std::ranges::any_of(people_, [](const auto& one) { return !one.second.poses.empty(); });
   }
@@ -109,11 +112,12 @@ class PeopleOfLog {
     if (!people_.empty()) before_ = people_.rbegin()->first;
   }
   void AddPerson(const people_t& set, const person_t& one) {
-    const std::optional<PoseRow> row = PoseRowOf(PoseOf(set, one));
+    std::optional<PoseRow> row = PoseRowOf(PoseOf(set, one));
     if (!row || one.id < 1) {
       ++wrong_;
       return;
     }
+    row->probability = ToldProbability(details_.Of(set.utime, one.id));
     Person& person = people_[before_ + one.id];
     if (!one.name.empty()) person.name = one.name;
     const bool is_later =
@@ -122,6 +126,7 @@ class PeopleOfLog {
   }
 
   People people_;
+  SetDetails details_;
   FrameOrder order_;
   std::int64_t before_ = 0;  ///< Largest number before the last restart.
   std::int64_t wrong_ = 0, repeated_ = 0;
@@ -133,8 +138,9 @@ PeopleByPrefix ReadEveryPrefix(ChannelLog& channels) {
   PeopleByPrefix daemons;
   while (channels.Next()) {
     PeopleOfLog& daemon = daemons[channels.prefix()];
-    const bool is_ours = channels.name() == kPeopleChannel ? daemon.AddSet(channels.bytes())
-                                                           : daemon.AddBody(channels.bytes());
+    const bool is_ours = channels.name() == kPeopleChannel   ? daemon.AddSet(channels.bytes())
+                         : channels.name() == kBodiesChannel ? daemon.AddBody(channels.bytes())
+                                                             : daemon.AddDetails(channels.bytes());
     if (!is_ours) channels.NoteGarbled();
   }
   std::erase_if(daemons, [](const auto& one) { return !one.second.HasPeople(); });
@@ -145,7 +151,7 @@ PeopleByPrefix ReadEveryPrefix(ChannelLog& channels) {
 
 PeopleResults ReadPeopleLog(const std::filesystem::path& log,
                             const std::optional<std::string>& prefix) {
-  ChannelLog channels(log, {kPeopleChannel, kBodiesChannel}, prefix);
+  ChannelLog channels(log, {kPeopleChannel, kBodiesChannel, kDetailsChannel}, prefix);
   PeopleByPrefix daemons = ReadEveryPrefix(channels);
   const std::optional<std::string> name = channels.Choose(daemons, "people");
   const auto chosen = name ? daemons.find(*name) : daemons.end();

@@ -13,6 +13,7 @@
 #include "daemon/messages/decode_message.h"
 #include "drivers/printable_text.h"
 #include "tools/results/channel_log.h"
+#include "tools/results/set_details.h"
 
 namespace mocap {
 namespace {
@@ -24,6 +25,7 @@ struct Daemon {
   std::vector<PoseRow> poses;
   FrameOrder order;
   std::optional<BodyRecord> body;
+  SetDetails details;
   std::int64_t repeated = 0;  ///< Duplicate messages.
   bool has_several_people = false;
 };
@@ -37,8 +39,9 @@ bool IsFinite(const PoseRow& row) {
 
 bool AddPose(std::span<const std::uint8_t> bytes, Daemon& daemon) {
   const auto pose = DecodeMessage<pose_t>(bytes);
-  const std::optional<PoseRow> row = pose ? PoseRowOf(*pose) : std::nullopt;
+  std::optional<PoseRow> row = pose ? PoseRowOf(*pose) : std::nullopt;
   if (!row) return false;
+  row->probability = ToldProbability(daemon.details.OfFirst(pose->utime));
   const bool is_again = !daemon.poses.empty() && daemon.poses.back().frame == row->frame &&
                         daemon.poses.back().timestamp_ns == row->timestamp_ns;
   if (is_again) {
@@ -63,19 +66,21 @@ void NotePeople(std::span<const std::uint8_t> bytes, Daemon& daemon) {
   if (set && set->num_people > 1) daemon.has_several_people = true;
 }
 
+/// Adds a message of one of our channels. @return  false if it is invalid.
+bool AddToDaemon(const ChannelLog& channels, Daemon& daemon) {
+  if (channels.name() == kPoseChannel) return AddPose(channels.bytes(), daemon);
+  if (channels.name() == kBodyChannel) return AddBody(channels.bytes(), daemon);
+  if (channels.name() == kDetailsChannel) return daemon.details.Add(channels.bytes());
+  NotePeople(channels.bytes(), daemon);
+  return true;
+}
+
 using Daemons = std::map<std::string, Daemon>;
 
 Daemons ReadDaemons(ChannelLog& channels) {
   Daemons daemons;
   while (channels.Next()) {
-    Daemon& daemon = daemons[channels.prefix()];
-    if (channels.name() == kPeopleChannel) {
-      NotePeople(channels.bytes(), daemon);
-      continue;
-    }
-    const bool is_ours = channels.name() == kPoseChannel ? AddPose(channels.bytes(), daemon)
-                                                         : AddBody(channels.bytes(), daemon);
-    if (!is_ours) channels.NoteGarbled();
+    if (!AddToDaemon(channels, daemons[channels.prefix()])) channels.NoteGarbled();
   }
   std::erase_if(daemons, [](const auto& one) { return one.second.poses.empty(); });
   return daemons;
@@ -180,7 +185,7 @@ void KeepNamedJoints(Result& result) {
 }
 
 Result ReadPoseLog(const std::filesystem::path& log, const std::optional<std::string>& prefix) {
-  ChannelLog channels(log, {kPoseChannel, kBodyChannel, kPeopleChannel}, prefix);
+  ChannelLog channels(log, {kPoseChannel, kBodyChannel, kPeopleChannel, kDetailsChannel}, prefix);
   Daemons daemons = ReadDaemons(channels);
   const std::optional<std::string> name = channels.Choose(daemons, "poses");
   const auto chosen = name ? daemons.find(*name) : daemons.end();

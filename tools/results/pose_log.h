@@ -24,8 +24,8 @@ std::optional<BodyRecord> BodyRecordOf(const body_t& message);
 /// Removes joint angles that were measured for another body: they have no names in this one.
 void KeepNamedJoints(Result& result);
 
-/// Reads MOCAP_POSE and MOCAP_BODY from a log of lcm-logger; the last body counts. Messages that
-/// are damaged or from other senders are skipped; the result's remarks report this.
+/// Reads MOCAP_POSE, MOCAP_BODY and MOCAP_DETAILS from a log of lcm-logger; the last body counts.
+/// Messages that are damaged or from other senders are skipped; the result's remarks report this.
 /// @param prefix  of the channels' names. Empty: any, if there is only one.
 /// @throws SetupError  when the log has none of either, or those of several daemons.
 Result ReadPoseLog(const std::filesystem::path& log, const std::optional<std::string>& prefix);

@@ -1,6 +1,7 @@
 #include "tools/stream/pose_feed.h"
 
 #include <algorithm>
+#include <span>
 #include <utility>
 
 #include "core/people/people_capture.h"
@@ -16,10 +17,14 @@
 namespace mocap {
 namespace {
 
+std::span<const std::uint8_t> BytesOf(const lcm::ReceiveBuffer& buffer) {
+  return {static_cast<const std::uint8_t*>(buffer.data),
+          static_cast<std::size_t>(buffer.data_size)};
+}
+
 template <typename Message>
 std::optional<Message> Decoded(const lcm::ReceiveBuffer& buffer) {
-  return DecodeMessage<Message>(
-      {static_cast<const std::uint8_t*>(buffer.data), static_cast<std::size_t>(buffer.data_size)});
+  return DecodeMessage<Message>(BytesOf(buffer));
 }
 
 bool IsSound(const pose_t& pose) {
@@ -64,6 +69,7 @@ PoseFeed::PoseFeed(lcm::LCM& lcm, const PoseFeedOptions& options, Take take)
     lcm.subscribe(prefix + kPoseChannel, &PoseFeed::OnPose, this);
     lcm.subscribe(prefix + kBodyChannel, &PoseFeed::OnBody, this);
   }
+  lcm.subscribe(prefix + kDetailsChannel, &PoseFeed::OnDetails, this);
 }
 
 void PoseFeed::OnPose(const lcm::ReceiveBuffer* buffer, const std::string&) {
@@ -107,6 +113,10 @@ void PoseFeed::OnPersonBody(const lcm::ReceiveBuffer* buffer, const std::string&
   if (has_room) bodies_[message->id] = std::move(message->body);
 }
 
+void PoseFeed::OnDetails(const lcm::ReceiveBuffer* buffer, const std::string&) {
+  details_.Add(BytesOf(*buffer));
+}
+
 bool PoseFeed::IsDue(std::int64_t utime) {
   heard_ns_ = SteadyNs();
   const std::optional<std::int64_t> capture_ns = CaptureNsOf(utime);
@@ -120,8 +130,14 @@ void PoseFeed::HandOn(const pose_t& pose, int person, const std::string& name) {
   }
   const auto body = bodies_.find(person);
   if (body == bodies_.end() || body->second.num_joints != pose.num_joints || !IsSound(pose)) return;
-  take_(
-      {.message = pose, .is_tracked = true, .body = &body->second, .person = person, .name = name});
+  const person_details_t* const details =
+      person == 0 ? details_.OfFirst(pose.utime) : details_.Of(pose.utime, person);
+  take_({.message = pose,
+         .is_tracked = true,
+         .body = &body->second,
+         .probability = ToldProbability(details),
+         .person = person,
+         .name = name});
 }
 
 }  // namespace mocap

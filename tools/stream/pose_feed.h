@@ -13,6 +13,7 @@
 #include <string>
 #include <vector>
 
+#include "tools/results/set_details.h"
 #include "tools/stream/rate_limit.h"
 
 namespace mocap {
@@ -31,7 +32,9 @@ struct StreamedPose {
   const pose_t& message;
   bool is_tracked = false;       ///< If false, only time, frame and state of the message are valid.
   const body_t* body = nullptr;  ///< Names the message's joints; null: not tracked.
-  int person = 0;                ///< 0: from MOCAP_POSE, which has no number.
+  /// Of the pose, 0 to 1; NaN: not known.
+  double probability = std::numeric_limits<double>::quiet_NaN();
+  int person = 0;  ///< 0: from MOCAP_POSE, which has no number.
   std::string name = {};
 };
 
@@ -60,6 +63,7 @@ class PoseFeed {
   void OnBody(const lcm::ReceiveBuffer* buffer, const std::string& channel);
   void OnPeople(const lcm::ReceiveBuffer* buffer, const std::string& channel);
   void OnPersonBody(const lcm::ReceiveBuffer* buffer, const std::string& channel);
+  void OnDetails(const lcm::ReceiveBuffer* buffer, const std::string& channel);
   bool IsDue(std::int64_t utime);
   void HandOn(const pose_t& pose, int person, const std::string& name);
 
@@ -69,6 +73,7 @@ class PoseFeed {
   std::int64_t heard_ns_, present_ns_;
   bool has_heard_ = false;
   std::vector<std::string> last_seen_;
+  SetDetails details_;
   std::map<int, body_t> bodies_;  ///< By person; 0: from MOCAP_BODY.
 };
 

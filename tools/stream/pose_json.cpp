@@ -57,6 +57,7 @@ std::string PoseJson(const StreamedPose& pose) {
     json["name"] = pose.name;
   }
   if (pose.is_tracked) AddPose(pose.message, *pose.body, json);
+  if (!std::isnan(pose.probability)) json["probability"] = Rounded(pose.probability, 1e4);
   return JsonText(json);
 }
 

@@ -5,7 +5,7 @@ import unittest
 
 import mocapd
 from mocapd.lcm_log import HEAD, MARK
-from mocapd.mocap import body_t, people_t, person_body_t, person_t, pose_t
+from mocapd.mocap import body_t, people_t, person_body_t, person_details_t, person_t, pose_t
 
 JOINTS = ("neck_x", "elbow_l_z", "knee_r_y")
 START_US = 1_700_000_000_000_000
@@ -51,6 +51,14 @@ def people_message(frame, people):
         person = fill_pose(person_t(), frame + number)
         person.id, person.name = number, name
         message.people.append(person)
+    return message
+
+
+def details_message(frame, number, place, probability):
+    message = person_details_t()
+    message.utime, message.frame = START_US + frame * 10_000, frame
+    message.person, message.place, message.state = number, place, pose_t.TRACKING
+    message.probability = probability
     return message
 
 

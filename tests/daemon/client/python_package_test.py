@@ -16,7 +16,7 @@ import numpy as np
 
 import mocapd
 from client_log import GROUP, free_group, need_multicast
-from client_messages import JOINTS, START_US, LogTest, body_message, people_message, person_body_message, pose_message
+from client_messages import JOINTS, START_US, LogTest, body_message, details_message, people_message, person_body_message, pose_message
 from mocapd.lcm_udp import (FRAGMENT_HEADER, FRAGMENT_MAGIC, MOST_BYTES, MOST_SENDERS, SHORT_HEADER, SHORT_MAGIC, Reassembly,
                             parse_group)
 from mocapd.mocap import people_t, pose_t
@@ -105,7 +105,8 @@ class AddressTest(unittest.TestCase):
 class DecodeTest(unittest.TestCase):
     def test_damaged_messages_are_none_or_something_else_but_never_an_error(self):
         chance = random.Random(3)
-        for message in (pose_message(1), body_message(), people_message(1, [(1, "anna"), (2, "")]), person_body_message(1)):
+        for message in (pose_message(1), body_message(), people_message(1, [(1, "anna"), (2, "")]), person_body_message(1),
+                        details_message(1, 2, 0, 0.6)):
             whole = message.encode()
             for end in range(0, len(whole), 7):
                 self.assertIsNone(decoded(type(message), whole[:end]))
@@ -135,6 +136,23 @@ class ListenTest(LogTest):
         np.testing.assert_allclose(pose.torso_rotation @ [1, 0, 0], [np.cos(0.5), np.sin(0.5), 0])
         self.assertEqual(pose.body.sizes_mm, {"thigh": 420.0})
         self.assertEqual(pose.points_mm.shape, (23, 3))
+
+    def test_a_pose_is_as_sure_as_its_details_tell(self):
+        self.log.add("MOCAP_BODY", body_message()).add("MOCAP_POSE", pose_message(3))
+        for frame, probability in ((4, 0.6), (5, 7.0)):
+            self.log.add("MOCAP_DETAILS", details_message(frame, 12, 0, probability)).add("MOCAP_POSE", pose_message(frame))
+        self.log.write()
+        np.testing.assert_array_equal([pose.probability for pose in mocapd.listen(self.url)], [np.nan, 0.6, np.nan])
+
+    def test_everybody_has_a_probability_of_their_own(self):
+        for number in (1, 4):
+            self.log.add("MOCAP_BODIES", person_body_message(number))
+        self.log.add("MOCAP_PEOPLE", people_message(1, [(1, ""), (4, "")]))
+        for number, probability in ((1, 0.9), (4, 0.6)):
+            self.log.add("MOCAP_DETAILS", details_message(2, number, number // 4, probability))
+        self.log.add("MOCAP_PEOPLE", people_message(2, [(1, ""), (4, "")])).write()
+        *_, people = mocapd.listen_people(self.url)
+        self.assertEqual([pose.probability for pose in people], [0.9, 0.6])
 
     def test_names_that_are_none_are_answered_with_those_that_there_are(self):
         self.log.add("MOCAP_BODY", body_message()).add("MOCAP_POSE", pose_message(3)).write()

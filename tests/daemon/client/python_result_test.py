@@ -13,7 +13,7 @@ import numpy as np
 
 import mocapd
 from client_log import skip
-from client_messages import LogTest, body_message, people_message, person_body_message, pose_message
+from client_messages import LogTest, body_message, details_message, people_message, person_body_message, pose_message
 from mocapd.lcm_log import HEAD, MARK
 from mocapd.mocap import pose_t
 from mocapd.results import COLUMNS
@@ -207,6 +207,24 @@ class ReadLogTest(LogTest):
         self.log.add("MOCAP_PEOPLE", people_message(0, [(1, "anna")])).add("MOCAP_BODIES", person_body_message(1))
         self.log.add("MOCAP_PEOPLE", people_message(1, [(2, "anna")])).add("MOCAP_BODIES", person_body_message(2))
         self.assertEqual(list(mocapd.read_people(self.log.write())), ["anna", "person-2"])
+
+    def test_how_sure_poses_are_comes_with_the_details_of_the_same_set(self):
+        self.whole().add("MOCAP_DETAILS", details_message(6, 12, 0, 0.6)).add("MOCAP_DETAILS", details_message(6, 1, 1, 0.9))
+        self.log.add("MOCAP_POSE", pose_message(6))
+        self.log.add("MOCAP_DETAILS", details_message(6, 12, 0, 0.6)).add("MOCAP_POSE", pose_message(7))
+        result = mocapd.read_log(self.log.write())
+        np.testing.assert_array_equal(result.probability, [np.nan] * 6 + [0.6, np.nan])
+        np.testing.assert_array_equal(result.to_columns()["probability"], result.probability)
+
+    def test_people_who_come_after_a_restart_are_as_sure_as_their_details(self):
+        for frame in (5, 0):
+            for number in (1, 2):
+                self.log.add("MOCAP_DETAILS", details_message(frame, number, number - 1, 0.1 * number + 0.01 * frame))
+            self.log.add("MOCAP_PEOPLE", people_message(frame, [(1, ""), (2, "")]))
+            for number in (1, 2):
+                self.log.add("MOCAP_BODIES", person_body_message(number))
+        people = mocapd.read_people(self.log.write())
+        np.testing.assert_allclose([result.probability[0] for result in people.values()], [0.15, 0.25, 0.1, 0.2])
 
     def test_people_are_told_apart_and_from_those_of_another_run(self):
         for number in (1, 2):

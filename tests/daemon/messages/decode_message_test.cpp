@@ -60,6 +60,27 @@ person_body_t SomePersonBody() {
   return body;
 }
 
+person_details_t SomeDetails() {
+  person_details_t details{};
+  details.person = 3;
+  details.probability = 0.75;
+  details.num_points = 2;
+  details.point_name = {"head", "toe_l"};
+  details.point_mm = {{1, 2, 3}, {4, 5, 6}};
+  details.point_std_mm = {7, 8};
+  details.num_joints = 1;
+  details.joint_name = {"neck_x"};
+  details.joint_rad = {0.1};
+  details.joint_std_rad = {0.01};
+  details.num_contacts = 1;
+  details.contact_name = {"heel_l"};
+  details.contact = {1};
+  details.rival_probability = 0.25;
+  details.num_rival_points = 2;
+  details.rival_point_mm = {{1, 2, 3}, {4, 5, 6}};
+  return details;
+}
+
 status_t SomeStatus() {
   status_t status{};
   status.version = "0.1.0";
@@ -144,6 +165,7 @@ TEST(DecodeMessage, GivesWholeMessagesOrNothing) {
   ExpectWholeOrNothing(SomeBody());
   ExpectWholeOrNothing(SomePeople());
   ExpectWholeOrNothing(SomePersonBody());
+  ExpectWholeOrNothing(SomeDetails());
   ExpectWholeOrNothing(SomeStatus());
   ExpectWholeOrNothing(SomeService());
   ExpectWholeOrNothing(SomeContrast());
@@ -160,6 +182,20 @@ TEST(DecodeMessage, AForgedCountTakesNoMemory) {
   for (const std::uint8_t first : {0x7f, 0xff}) {
     bytes[num_joints] = first;
     EXPECT_FALSE(DecodeMessage<pose_t>(bytes));
+  }
+}
+
+TEST(DecodeMessage, AForgedNumberOfPointsTakesNoMemory) {
+  std::vector<std::uint8_t> bytes = Encoded(SomeDetails());
+  const std::size_t num_points = 8 + 2 * 8 + 2 * 4 + 1 + 8;
+  const std::size_t num_rival_points = bytes.size() - 2 * 3 * 8 - 4;
+  for (const std::size_t place : {num_points, num_rival_points}) {
+    ASSERT_EQ(bytes[place + 3], 2);
+    for (const std::uint8_t first : {0x7f, 0xff}) {
+      bytes[place] = first;
+      EXPECT_FALSE(DecodeMessage<person_details_t>(bytes));
+    }
+    bytes[place] = 0;
   }
 }
 

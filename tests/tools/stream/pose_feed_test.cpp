@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <limits>
 #include <nlohmann/json.hpp>
 #include <string>
@@ -82,6 +83,28 @@ TEST_F(PoseFeedTest, ATrackedPoseIsALineWithPointsAndAnglesByName) {
   const Matrix3 R = ExpRotation(Vector3(pose.torso_axis) * pose.torso_angle_rad);
   for (int i = 0; i < 9; ++i)
     EXPECT_NEAR(line["torso_rotation"][i / 3][i % 3], R(i / 3, i % 3), 1e-6);
+}
+
+TEST_F(PoseFeedTest, TellsHowSureAPoseIsIfItsDetailsDo) {
+  Listen({.everybody = true});
+  const pose_t pose = Pose(1);
+  const auto publish_details = [&](int person, double probability) {
+    person_details_t details{};
+    details.utime = pose.utime;
+    details.person = person;
+    details.probability = probability;
+    Publish("MOCAP_DETAILS", details);
+  };
+  for (const int id : {3, 4, 5}) PublishBody(id);
+  publish_details(3, 0.61234567);
+  publish_details(4, std::nan(""));
+  std::vector<person_t> people;
+  for (const int id : {3, 4, 5}) people.push_back(PersonMessage(id, "", pose));
+  Publish("MOCAP_PEOPLE", People(people, 1));
+  Publish("MOCAP_PEOPLE", People(people, 2));
+  ASSERT_EQ(lines_.size(), 6u);
+  EXPECT_EQ(lines_[0]["probability"], 0.6123);
+  for (int i = 1; i < 6; ++i) EXPECT_FALSE(lines_[i].contains("probability")) << lines_[i];
 }
 
 TEST_F(PoseFeedTest, WhoIsNotTrackedHasNoNumbers) {

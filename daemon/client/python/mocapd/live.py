@@ -50,6 +50,8 @@ def listen(url: str | None = None, prefix: str = "", person: int | None = None,
     for channel, data in source.events():
         if channel == prefix + "MOCAP_BODY":
             decoder.take_body(data)
+        elif channel == prefix + "MOCAP_DETAILS":
+            decoder.details.take(data)
         elif channel == prefix + "MOCAP_POSE":
             pose = decoder.pose(data)
             source.left_out = decoder.left_out
@@ -74,6 +76,8 @@ def _people(source: _Source) -> Iterator[list[Pose]]:
     for channel, data in source.events():
         if channel == source.prefix + "MOCAP_BODIES":
             decoder.take_person_body(data)
+        elif channel == source.prefix + "MOCAP_DETAILS":
+            decoder.details.take(data)
         elif channel == source.prefix + "MOCAP_PEOPLE":
             people = decoder.people(data)
             source.left_out = decoder.left_out

@@ -11,6 +11,7 @@ import numpy as np
 from .mocap.body_t import body_t
 from .mocap.people_t import people_t
 from .mocap.person_body_t import person_body_t
+from .mocap.person_details_t import person_details_t
 from .mocap.person_t import person_t
 from .mocap.pose_t import pose_t
 
@@ -123,6 +124,7 @@ class Pose:
     points_mm: np.ndarray  #: 23 x 3, in the order of POINT_NAMES
     points_std_mm: np.ndarray  #: 23
     residual_mm: float  #: mean distance between the body and the observations
+    probability: float  #: of the pose, 0 to 1; NaN: not known
 
     @property
     def is_tracked(self) -> bool:
@@ -149,7 +151,7 @@ class Pose:
 
     @classmethod
     def of(cls, message: pose_t | person_t, utime: int, frame: int, body: Body | None, person: int | None = None,
-           name: str = "") -> Pose | None:
+           name: str = "", probability: float = float("nan")) -> Pose | None:
         """Reads a message. None where somebody is tracked and the body is not known yet, or a number is none."""
         state = state_name(message.state)
         if not is_time(utime):
@@ -163,7 +165,7 @@ class Pose:
                    joints_rad=np.array(message.joint_rad),
                    torso_rotation=rotation_matrix(message.torso_axis, message.torso_angle_rad),
                    points_mm=np.array(message.point_mm), points_std_mm=np.array(message.point_std_mm),
-                   residual_mm=message.residual_mm)
+                   residual_mm=message.residual_mm, probability=probability)
 
     @classmethod
     def untracked(cls, utime: int, frame: int, state: str, person: int | None, name: str) -> Pose:
@@ -171,7 +173,30 @@ class Pose:
             return np.full(shape, np.nan)
         return cls(utime=utime, frame=frame, state=state, person=person, name=name, body=None, torso_mm=nothing(3),
                    torso_rotation=nothing(3, 3), theta_rad=nothing(len(THETA_NAMES)), joints_rad=nothing(0),
-                   points_mm=nothing(len(POINT_NAMES), 3), points_std_mm=nothing(len(POINT_NAMES)), residual_mm=float("nan"))
+                   points_mm=nothing(len(POINT_NAMES), 3), points_std_mm=nothing(len(POINT_NAMES)), residual_mm=float("nan"),
+                   probability=float("nan"))
+
+
+class SetDetails:
+    """What MOCAP_DETAILS told of the people in the latest frame set. It comes before their poses."""
+
+    def __init__(self) -> None:
+        self._of_set: list[person_details_t] = []
+
+    def take(self, data: bytes) -> None:
+        message = decoded(person_details_t, data)
+        if message is None:
+            return
+        others = [before for before in self._of_set if before.utime == message.utime and before.person != message.person]
+        self._of_set = [*others, message]
+
+    def probability(self, utime: int, person: int | None) -> float:
+        """Of a person's pose; None: of the one in pose_t. NaN where it is not known."""
+        for details in self._of_set:
+            is_meant = details.place == 0 if person is None else details.person == person
+            if details.utime == utime and is_meant and 0 <= details.probability <= 1:
+                return float(details.probability)
+        return float("nan")
 
 
 class PoseDecoder:
@@ -180,6 +205,7 @@ class PoseDecoder:
     def __init__(self) -> None:
         self.body: Body | None = None
         self.bodies: dict[int, Body] = {}
+        self.details = SetDetails()
         #: Whose poses were left out of the last message, and why: DAMAGED or BODILESS. None: of pose(), or everybody.
         self.left_out: dict[int | None, str] = {}
 
@@ -195,7 +221,8 @@ class PoseDecoder:
 
     def pose(self, data: bytes) -> Pose | None:
         message = decoded(pose_t, data)
-        pose = None if message is None else Pose.of(message, message.utime, message.frame, self.body)
+        pose = None if message is None else Pose.of(
+            message, message.utime, message.frame, self.body, probability=self.details.probability(message.utime, None))
         self.left_out = {None: why_not(message, self.body)} if pose is None else {}
         return pose
 
@@ -206,7 +233,8 @@ class PoseDecoder:
             self.left_out = {None: DAMAGED}
             return None
         self.bodies = {person.id: self.bodies[person.id] for person in message.people if person.id in self.bodies}
-        poses = [Pose.of(person, message.utime, message.frame, self.bodies.get(person.id), person.id, person.name)
+        poses = [Pose.of(person, message.utime, message.frame, self.bodies.get(person.id), person.id, person.name,
+                         self.details.probability(message.utime, person.id))
                  for person in message.people]
         self.left_out = {person.id: why_not(person, self.bodies.get(person.id))
                          for person, pose in zip(message.people, poses) if pose is None}

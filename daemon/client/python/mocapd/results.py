@@ -13,14 +13,14 @@ import numpy as np
 from .lcm_log import listed_prefixes, read_events
 from .mocap.people_t import people_t
 from .mocap.pose_t import pose_t
-from .poses import (PAPER_JOINT_NAMES, POINT_NAMES, THETA_NAMES, TRACKING, Body, PoseDecoder, decoded, has_numbers, is_time, place_of,
-                    rotation_matrix, state_name)
+from .poses import (PAPER_JOINT_NAMES, POINT_NAMES, THETA_NAMES, TRACKING, Body, PoseDecoder, SetDetails, decoded, has_numbers,
+                    is_time, place_of, rotation_matrix, state_name)
 
 if TYPE_CHECKING:
     import pandas
 
 Path = str | os.PathLike[str]
-POSE, BODY, PEOPLE, BODIES = "MOCAP_POSE", "MOCAP_BODY", "MOCAP_PEOPLE", "MOCAP_BODIES"
+POSE, BODY, PEOPLE, BODIES, DETAILS = "MOCAP_POSE", "MOCAP_BODY", "MOCAP_PEOPLE", "MOCAP_BODIES", "MOCAP_DETAILS"
 
 #: The columns that every poses.csv has. The first torso_x_mm and so on are the origin of the torso's frame, the second the point torso.
 COLUMNS: tuple[str, ...] = (
@@ -188,10 +188,12 @@ def read_log(path: Path, prefix: str | None = None, person: int | None = None) -
     for channel, data in read_events(path):
         if channel == chosen + BODY:
             decoder.take_body(data)
+        elif channel == chosen + DETAILS:
+            decoder.details.take(data)
         elif channel == chosen + POSE:
             message = decoded(pose_t, data)
             if message is not None:
-                rows.add_message(message, message.utime, message.frame)
+                rows.add_message(message, message.utime, message.frame, decoder.details.probability(message.utime, None))
     return _result_of(path, rows, decoder.body)
 
 
@@ -245,12 +247,14 @@ def _read_people_log(path: Path, prefix: str | None) -> dict[int, tuple[str, Res
     rows: dict[int, _Rows] = {}
     names: dict[int, str] = {}
     bodies: dict[int, Body] = {}
-    decoder = PoseDecoder()
+    decoder, details = PoseDecoder(), SetDetails()
     before, frame = 0, -1
     for channel, data in read_events(path):
         if channel == chosen + BODIES:
             decoder.take_person_body(data)
             bodies |= {before + number: body for number, body in decoder.bodies.items() if before + number in rows}
+        elif channel == chosen + DETAILS:
+            details.take(data)
         elif channel == chosen + PEOPLE:
             people = decoded(people_t, data)
             if people is None:
@@ -259,7 +263,8 @@ def _read_people_log(path: Path, prefix: str | None) -> dict[int, tuple[str, Res
                 before, decoder = max(rows, default=0), PoseDecoder()
             frame = people.frame
             for person in people.people:
-                rows.setdefault(before + person.id, _Rows()).add_message(person, people.utime, people.frame)
+                rows.setdefault(before + person.id, _Rows()).add_message(
+                    person, people.utime, people.frame, details.probability(people.utime, person.id))
                 names[before + person.id] = person.name or names.get(before + person.id, "")
     return {number: (names[number], _result_of(path, rows[number], bodies[number])) for number in sorted(rows)
             if number in bodies}
@@ -312,7 +317,7 @@ class _Rows:
                            np.array(float(row[RESIDUAL_PLACE])), np.array([number_or_none(place) for place in places.deviations]),
                            np.array(number_or_none(places.probability)), np.array([number_or_none(place) for place in places.joints])))
 
-    def add_message(self, message: Any, utime: int, frame: int) -> None:
+    def add_message(self, message: Any, utime: int, frame: int, probability: float) -> None:
         state = state_name(message.state)
         head = (frame, utime * 1000, state)
         came_before = bool(self.heads) and self.heads[-1] == head
@@ -322,7 +327,7 @@ class _Rows:
         self.poses.append(None if state != TRACKING else (
             np.array(message.torso_mm), np.array(message.torso_axis), np.array(message.torso_angle_rad),
             np.array(message.theta_rad), np.array(message.point_mm), np.array(message.residual_mm),
-            np.array(message.point_std_mm), np.array(np.nan), np.array(message.joint_rad)))
+            np.array(message.point_std_mm), np.array(probability), np.array(message.joint_rad)))
 
     def result(self, model: str, stature_mm: float, sizes_mm: dict[str, float], joint_names: tuple[str, ...]) -> Result:
         shapes = ((3,), (3,), (), (len(THETA_NAMES),), (len(POINT_NAMES), 3), (), (len(POINT_NAMES),), (), (len(joint_names),))
