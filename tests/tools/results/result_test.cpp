@@ -231,7 +231,7 @@ TEST(Result, DamageIsNamedWithFileAndLine) {
               HasSubstr("poses.csv:3: theta_16_rad is \"2.25x\"; expected a number"));
   WriteResult(folder.path(), SomeResult());
   ReplaceInFile(folder.path() / "poses.csv", ",acquiring", "");
-  EXPECT_THAT(SetupErrorOf(read), HasSubstr("poses.csv:3: has 120 fields; expected 121"));
+  EXPECT_THAT(SetupErrorOf(read), HasSubstr("poses.csv:3: has 121 fields; expected 122"));
   WriteResult(folder.path(), SomeResult());
   ReplaceInFile(folder.path() / "poses.csv", "timestamp_ns", "time");
   EXPECT_THAT(SetupErrorOf(read), HasSubstr("poses.csv:1: "));
