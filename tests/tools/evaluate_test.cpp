@@ -3,6 +3,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "core/errors.h"
 #include "tests/support/box_take.h"
 #include "tests/support/setup_error.h"
@@ -125,6 +127,37 @@ TEST_F(EvaluateTest, TellsWhatFitAndDeviationsAreWorth) {
   std::filesystem::remove(take_ / "truth.csv");
   EXPECT_THAT(Run({"evaluate", take_.string(), result_.string()}),
               HasSubstr("95 % below 16.0 mm\ndeviation   7.0 mm (median)\n"));
+}
+
+TEST_F(EvaluateTest, TellsHowTrueProbabilitiesAre) {
+  Result result = ReadResult(result_);
+  // All are 12 mm off, but for two of the eight with 0.6: these are 112 mm off.
+  for (std::size_t i = 0; i < result.poses.size(); ++i) {
+    PoseRow& row = result.poses[i];
+    row.probability = i < 10 ? 0.6 : i == 10 ? 0.9 : 1;
+    if (i % 5 < 2 && i < 10) row.points_W.row(2).array() += 100;
+    if (i == 19) row.probability = std::nan("");
+  }
+  WriteResult(result_, result);
+  // Nobody is tracked in the first two of 20.
+  const std::string json = Run({"evaluate", take_.string(), result_.string(), "--json"});
+  EXPECT_THAT(json, HasSubstr("\"probabilities\": [{\"from\": 0, \"to\": 0.5, \"frames\": 0}, "
+                              "{\"from\": 0.5, \"to\": 0.9, \"frames\": 8, "
+                              "\"mean_probability\": 0.6, \"right_share\": 0.75}, "
+                              "{\"from\": 0.9, \"to\": 1, \"frames\": 9, "
+                              "\"mean_probability\": 0.9889, \"right_share\": 1}]"));
+  EXPECT_THAT(Run({"evaluate", take_.string(), result_.string()}),
+              HasSubstr("\n  probability      frames     mean    right    right: mean error below "
+                        "100 mm\n"
+                        "  0 to 0.5              0        -        -\n"
+                        "  0.5 to 0.9            8    0.600   75.0 %\n"
+                        "  0.9 to 1              9    0.989  100.0 %\n"));
+}
+
+TEST_F(EvaluateTest, WithoutProbabilitiesThereIsNoTableOfThem) {
+  EXPECT_THAT(Run({"evaluate", take_.string(), result_.string()}), Not(HasSubstr("probability")));
+  EXPECT_THAT(Run({"evaluate", take_.string(), result_.string(), "--json"}),
+              Not(HasSubstr("probabilities")));
 }
 
 TEST_F(EvaluateTest, SaysWhatItCanWithoutTruth) {

@@ -44,7 +44,16 @@ std::optional<CertaintyCheck> CheckOf(const std::vector<PoseRow>& poses, const A
   };
   return CertaintyCheck{mean_mm(0, half),
                         mean_mm(fit_and_error_mm.size() - half, fit_and_error_mm.size()),
-                        ShareWithinTwo(poses, accuracy)};
+                        ShareWithinTwo(poses, accuracy), CheckProbabilities(poses, accuracy)};
+}
+
+std::string DeviationText(const Certainty& certainty) {
+  std::string text = fmt::format("deviation   {:.1f} mm (median)", *certainty.median_deviation_mm);
+  if (certainty.check && certainty.check->within_two_deviations) {
+    text += fmt::format("; errors within twice the deviation: {:.0f} %",
+                        100 * *certainty.check->within_two_deviations);
+  }
+  return text + '\n';
 }
 
 }  // namespace
@@ -76,13 +85,12 @@ std::string CertaintyText(const Certainty& certainty) {
                     check->better_half_mm, check->worse_half_mm);
   }
   text += '\n';
-  if (!certainty.median_deviation_mm) return text;
-  text += fmt::format("deviation   {:.1f} mm (median)", *certainty.median_deviation_mm);
-  if (check && check->within_two_deviations) {
-    text += fmt::format("; errors within twice the deviation: {:.0f} %",
-                        100 * *check->within_two_deviations);
-  }
-  return text + '\n';
+  return certainty.median_deviation_mm ? text + DeviationText(certainty) : text;
+}
+
+std::string ProbabilityTextOf(const std::optional<Certainty>& certainty) {
+  const bool is_checked = certainty && certainty->check;
+  return is_checked ? ProbabilityTable(certainty->check->probabilities) : std::string();
 }
 
 }  // namespace mocap

@@ -6,16 +6,18 @@
 #include <vector>
 
 #include "core/evaluation/accuracy.h"
+#include "tools/report/probability_check.h"
 #include "tools/results/result.h"
 
 namespace mocap {
 
-/// What the truth says of fit and deviations.
+/// What the truth says of fit, deviations and probabilities.
 struct CertaintyCheck {
   /// Mean error of the points in the half of the frames with the better fit, and in the other.
   double better_half_mm = 0, worse_half_mm = 0;
   /// Share of the points' errors that are within twice their deviation; empty without deviations.
   std::optional<double> within_two_deviations;
+  ProbabilityCheck probabilities = {};
 };
 
 /// Over tracked frames.
@@ -30,7 +32,9 @@ struct Certainty {
 std::optional<Certainty> MeasureCertainty(const std::vector<PoseRow>& poses,
                                           const std::optional<Accuracy>& accuracy);
 
-/// Lines for a terminal.
+/// Lines for a terminal, without probabilities.
 std::string CertaintyText(const Certainty& certainty);
+/// ProbabilityTable of a result; empty without truth.
+std::string ProbabilityTextOf(const std::optional<Certainty>& certainty);
 
 }  // namespace mocap

@@ -83,6 +83,8 @@ JsonObject CertaintyJson(const Certainty& certainty) {
   json.Add("error_of_worse_half_mm", certainty.check->worse_half_mm, 1);
   if (const auto& share = certainty.check->within_two_deviations)
     json.Add("errors_within_two_deviations", *share, 4);
+  const ProbabilityCheck& probabilities = certainty.check->probabilities;
+  if (!probabilities.IsEmpty()) json.Add("probabilities", ProbabilityJson(probabilities));
   return json;
 }
 
@@ -139,7 +141,8 @@ std::string EvaluationText(const Evaluation& evaluation) {
     text += "precision   no run of 15 tracked frames\n";
   }
   if (evaluation.accuracy)
-    return text + AccuracyText(*evaluation.accuracy) + LengthsText(evaluation);
+    return text + AccuracyText(*evaluation.accuracy) + LengthsText(evaluation) +
+           ProbabilityTextOf(evaluation.certainty);
   return text + "accuracy    the take has no truth\n";
 }
 

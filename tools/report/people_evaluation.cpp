@@ -74,6 +74,7 @@ void Score(const std::vector<TruePerson>& truth, TrackedPerson& person) {
   for (FrameError& error : evaluation.accuracy->frames) {
     error.pose = person.matches[static_cast<std::size_t>(error.pose)].pose;
   }
+  evaluation.certainty = MeasureCertainty(evaluation.result.poses, evaluation.accuracy);
   evaluation.lengths = CompareLengths(evaluation.result.body.sizes, *evaluation.truth);
 }
 

@@ -82,6 +82,16 @@ JsonObject FollowedJson(const FollowedTruth& followed) {
   return json;
 }
 
+/// Of all tracked people.
+ProbabilityCheck ProbabilitiesOf(const PeopleEvaluation& evaluation) {
+  ProbabilityCheck all;
+  for (const TrackedPerson& person : evaluation.people) {
+    const auto& certainty = person.evaluation.certainty;
+    if (certainty && certainty->check) all.Add(certainty->check->probabilities);
+  }
+  return all;
+}
+
 }  // namespace
 
 std::string CountedPeople(std::size_t count) {
@@ -95,7 +105,8 @@ std::string PeopleText(const PeopleEvaluation& evaluation) {
     return text + "\n\n" + TrackedTable(evaluation) + "\naccuracy    the take has no truth\n";
   }
   return text + ", " + CountedPeople(evaluation.truth.size()) + " there\n\n" +
-         TrackedTable(evaluation) + TrueTable(evaluation);
+         TrackedTable(evaluation) + TrueTable(evaluation) +
+         ProbabilityTable(ProbabilitiesOf(evaluation));
 }
 
 std::string PeopleJson(const PeopleEvaluation& evaluation) {
@@ -121,6 +132,8 @@ std::string PeopleJson(const PeopleEvaluation& evaluation) {
   if (!evaluation.truth.empty()) {
     json.Add("truth", truth);
     json.Add("all", FollowedJson(evaluation.sum));
+    const ProbabilityCheck probabilities = ProbabilitiesOf(evaluation);
+    if (!probabilities.IsEmpty()) json.Add("probabilities", ProbabilityJson(probabilities));
     json.Add("phantom_frames", evaluation.phantom_frames);
     json.Add("duplicate_frames", evaluation.duplicate_frames);
   }

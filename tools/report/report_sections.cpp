@@ -81,10 +81,11 @@ std::string PrecisionSection(const Evaluation& evaluation) {
          BarTable("point", "mm", points) + "</div></div>\n";
 }
 
-/// The lines of CertaintyText.
-std::string CertaintyTable(const Evaluation& evaluation) {
+/// What the terminal tells.
+std::string CertaintyHtml(const Evaluation& evaluation) {
   if (!evaluation.certainty) return {};
-  return "<pre>" + CertaintyText(*evaluation.certainty) + "</pre>\n";
+  return "<pre>" + CertaintyText(*evaluation.certainty) + ProbabilityTextOf(evaluation.certainty) +
+         "</pre>\n";
 }
 
 }  // namespace
@@ -106,7 +107,7 @@ std::string TrackingSections(const Evaluation& evaluation, const TakeSamples& sa
             ScoredAnglesFigure(evaluation);
   }
   return html + PrecisionSection(evaluation) + "<h2>The tracker’s own view</h2>\n" +
-         CertaintyTable(evaluation) + ResidualFigure(evaluation);
+         CertaintyHtml(evaluation) + ResidualFigure(evaluation);
 }
 
 std::string Tile(const std::string& what, const std::string& value, const std::string& unit,

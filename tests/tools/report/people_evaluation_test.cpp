@@ -143,6 +143,20 @@ TEST(PeopleText, HasARowForEachAndTheSum) {
   EXPECT_THAT(json, HasSubstr("\"found_while_covered_share\": 0.5,"));
 }
 
+TEST(PeopleText, ProbabilitiesAreThoseOfEverybody) {
+  const auto sure = [](Result result, double probability) {
+    for (PoseRow& row : result.poses) row.probability = probability;
+    return result;
+  };
+  const PeopleEvaluation evaluation =
+      EvaluatePeople({{"person-1", sure(TrackedAt(0, 10, 2010), 0.99)},
+                      {"person-2", sure(TrackedAt(0, 10, 10) + TrackedAt(10, 15, 150), 0.97)}},
+                     {Standing("anna", 0, 15, 0), Standing("bert", 0, 15, 2000)});
+  EXPECT_THAT(PeopleText(evaluation), HasSubstr("\n  0.9 to 1             25    0.978   80.0 %\n"));
+  EXPECT_THAT(PeopleJson(evaluation),
+              HasSubstr("\"probabilities\": [{\"from\": 0, \"to\": 0.5, \"frames\": 0}, "));
+}
+
 TEST(PeopleText, NothingIsSaidOfFramesThatAreNone) {
   TruePerson anna = Standing("anna", 0, 3, 0);
   anna.covered.assign(3, false);
