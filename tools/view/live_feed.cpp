@@ -48,10 +48,14 @@ LiveMessage For(std::int64_t duration_ns, LiveMessage message) {
   return message;
 }
 
+std::span<const std::uint8_t> BytesOf(const lcm::ReceiveBuffer& buffer) {
+  return {static_cast<const std::uint8_t*>(buffer.data),
+          static_cast<std::size_t>(buffer.data_size)};
+}
+
 template <typename Message>
 std::optional<Message> Decoded(const lcm::ReceiveBuffer& buffer) {
-  return DecodeMessage<Message>(
-      {static_cast<const std::uint8_t*>(buffer.data), static_cast<std::size_t>(buffer.data_size)});
+  return DecodeMessage<Message>(BytesOf(buffer));
 }
 
 bool IsSound(const preview_t& preview) {
@@ -79,6 +83,7 @@ LiveFeed::LiveFeed(lcm::LCM& lcm, const std::string& prefix, std::string url, Pu
   lcm.subscribe(named + kBodyChannel, &LiveFeed::OnBody, this);
   lcm.subscribe(named + kPeopleChannel, &LiveFeed::OnPeople, this);
   lcm.subscribe(named + kBodiesChannel, &LiveFeed::OnPersonBody, this);
+  lcm.subscribe(named + kDetailsChannel, &LiveFeed::OnDetails, this);
   lcm.subscribe(named + "MOCAP_VOXELS", &LiveFeed::OnVoxels, this);
   lcm.subscribe(named + "MOCAP_STATUS", &LiveFeed::OnStatus, this);
   lcm.subscribe(named + kServiceChannel, &LiveFeed::OnService, this);
@@ -121,7 +126,7 @@ void LiveFeed::OnPeople(const lcm::ReceiveBuffer* buffer, const std::string&) {
   const std::optional<people_t> set = Decoded<people_t>(*buffer);
   if (!set) return;
   people_ns_ = SteadyNs();
-  std::vector<DrawnPose> poses = people_.Take(*set);
+  std::vector<DrawnPose> poses = people_.Take(*set, details_);
   PutPeople();
   if (!poses.empty()) return PutPoses(std::move(poses));
   if (set->people.empty() && first_ && first_->utime == set->utime) PutPose(*first_);
@@ -164,6 +169,10 @@ void LiveFeed::OnBody(const lcm::ReceiveBuffer* buffer, const std::string&) {
 
 void LiveFeed::OnPersonBody(const lcm::ReceiveBuffer* buffer, const std::string&) {
   if (const auto body = Decoded<person_body_t>(*buffer)) people_.TakeBody(*body);
+}
+
+void LiveFeed::OnDetails(const lcm::ReceiveBuffer* buffer, const std::string&) {
+  details_.Add(BytesOf(*buffer));
 }
 
 void LiveFeed::OnVoxels(const lcm::ReceiveBuffer* buffer, const std::string&) {

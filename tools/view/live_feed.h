@@ -60,6 +60,7 @@ class LiveFeed {
   void OnPeople(const lcm::ReceiveBuffer* buffer, const std::string& channel);
   void OnBody(const lcm::ReceiveBuffer* buffer, const std::string& channel);
   void OnPersonBody(const lcm::ReceiveBuffer* buffer, const std::string& channel);
+  void OnDetails(const lcm::ReceiveBuffer* buffer, const std::string& channel);
   void OnVoxels(const lcm::ReceiveBuffer* buffer, const std::string& channel);
   void OnStatus(const lcm::ReceiveBuffer* buffer, const std::string& channel);
   void OnService(const lcm::ReceiveBuffer* buffer, const std::string& channel);
@@ -86,11 +87,12 @@ class LiveFeed {
   std::string silence_, control_, notice_, told_people_;
   std::optional<DrawnBody> body_;  ///< From MOCAP_POSE.
   LivePeople people_;
+  SetDetails details_;
   std::optional<std::int64_t> people_ns_;  ///< Time of the last MOCAP_PEOPLE, by the steady clock.
   std::optional<pose_t> first_;            ///< Drawn while MOCAP_PEOPLE has nobody.
   std::optional<service_t> service_;
-  contrast_t contrast_;
-  studio_t studio_;
+  contrast_t contrast_{};
+  studio_t studio_{};
   std::vector<CameraCalibration> cameras_;
   std::vector<RigidTransform> X_CW_;  ///< Current pose of each camera.
   /// Latest poses, for later pictures, without capsules.

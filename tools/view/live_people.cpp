@@ -12,6 +12,16 @@ namespace {
 /// A sender that is silent for longer may have been restarted.
 constexpr double kLongestGapUs = 3e6;
 
+void AddDoubt(const person_details_t* details, DrawnPose& drawn) {
+  drawn.row.probability = ToldProbability(details);
+  if (!details || details->rival_probability == 0 || details->num_rival_points < kPointCount)
+    return;
+  RivalPose& rival = drawn.rival.emplace();
+  rival.probability = details->rival_probability;
+  for (int i = 0; i < kPointCount; ++i)
+    rival.points_W.col(i) = Vector3(details->rival_point_mm[i].data());
+}
+
 }  // namespace
 
 DrawnPose DrawnPoseOf(const pose_t& pose, const PoseRow& row, const DrawnBody* body) {
@@ -22,7 +32,7 @@ DrawnPose DrawnPoseOf(const pose_t& pose, const PoseRow& row, const DrawnBody* b
   return drawn;
 }
 
-std::vector<DrawnPose> LivePeople::Take(const people_t& set) {
+std::vector<DrawnPose> LivePeople::Take(const people_t& set, const SetDetails& details) {
   // Another daemon numbers people independently.
   const auto at_us = static_cast<double>(set.publish_utime);
   const bool goes_on = heard_us_ && at_us >= *heard_us_ && at_us - *heard_us_ < kLongestGapUs;
@@ -45,6 +55,7 @@ std::vector<DrawnPose> LivePeople::Take(const people_t& set) {
         poses.emplace_back(DrawnPoseOf(pose, *row, known.body ? &*known.body : nullptr));
     drawn.person = known.color;
     drawn.id = known.id;
+    AddDoubt(details.Of(set.utime, known.id), drawn);
   }
   heard_us_ = at_us;
   return poses;

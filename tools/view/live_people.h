@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "tools/results/set_details.h"
 #include "tools/view/drawn_body.h"
 #include "tools/view/wire.h"
 
@@ -29,8 +30,9 @@ class LivePeople {
   };
 
   /// Updates the people from a set.
+  /// @param details  of the same set, as far as they came.
   /// @return  their poses in its order, without invalid ones.
-  std::vector<DrawnPose> Take(const people_t& set);
+  std::vector<DrawnPose> Take(const people_t& set, const SetDetails& details);
   /// Sets the body of a present person.
   void TakeBody(const person_body_t& message);
 

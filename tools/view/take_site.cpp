@@ -106,16 +106,19 @@ FrameErrors ErrorsOf(const Accuracy& accuracy, const std::vector<int>& rows) {
 
 Json ResultJson(const std::string& name, const Evaluation& evaluation,
                 const std::vector<int>& rows) {
-  Json states = Json::array(), residuals = Json::array();
+  Json states = Json::array(), residuals = Json::array(), probabilities = Json::array();
   for (const int at : rows) {
     const PoseRow* row = at < 0 ? nullptr : &evaluation.result.poses[static_cast<std::size_t>(at)];
     states.push_back(row ? Json(static_cast<int>(row->state)) : Json());
     residuals.push_back(row && row->has_pose ? Json(row->residual_mm) : Json());
+    const bool is_known = row && row->has_pose && !std::isnan(row->probability);
+    probabilities.push_back(is_known ? Json(row->probability) : Json());
   }
   Json json{{"name", name},
             {"body", Json::parse(BodyJson(evaluation.result.body, PartsFromPoints()))},
             {"states", std::move(states)},
             {"residual_mm", std::move(residuals)},
+            {"probability", std::move(probabilities)},
             {"error_mm", Json::array()},
             {"joints", Json::array()},
             {"joint_error_mm", Json::array()}};

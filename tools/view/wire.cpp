@@ -96,6 +96,9 @@ std::string PoseBytes(const DrawnPose& pose) {
     writer.Add(static_cast<float>(capsule.radius_b_mm));
   }
   writer.Add(static_cast<std::uint32_t>(pose.id));
+  writer.Add(static_cast<float>(row.probability));
+  writer.Add(static_cast<float>(pose.rival ? pose.rival->probability : 0));
+  if (pose.rival) writer.AddFloats(pose.rival->points_W.reshaped());
   return writer.Take();
 }
 

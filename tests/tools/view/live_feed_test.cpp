@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstring>
 #include <lcm/lcm-cpp.hpp>
 #include <limits>
@@ -34,6 +35,9 @@ CameraCalibration Camera() {
   camera.X_CW.p = Vector3(0, 0, 3000);
   return camera;
 }
+
+/// Of a pose without capsules and without a rival.
+constexpr std::size_t kPoseBytes = 328;
 
 /// A feed that hears what the test publishes, and what it put on the board.
 class LiveFeedTest : public ::testing::Test {
@@ -149,7 +153,7 @@ TEST_F(LiveFeedTest, APoseHasTheCapsulesOfTheTracker) {
   Publish("left.MOCAP_BODY", body);
   EXPECT_EQ(Json(LiveFeed::kBody)["capsule_parts"].size(), body_.shape().size());
   Publish("left.MOCAP_POSE", Pose());
-  EXPECT_EQ(board_.at(LiveFeed::kPoses).size(), 320 + 32 * body_.shape().size());
+  EXPECT_EQ(board_.at(LiveFeed::kPoses).size(), kPoseBytes + 32 * body_.shape().size());
 }
 
 TEST_F(LiveFeedTest, ABodyOfAnotherModelIsDrawnFromItsPoints) {
@@ -158,7 +162,7 @@ TEST_F(LiveFeedTest, ABodyOfAnotherModelIsDrawnFromItsPoints) {
   body.model = "/etc/passwd";
   Publish("left.MOCAP_BODY", body);
   Publish("left.MOCAP_POSE", Pose());
-  EXPECT_EQ(board_.at(LiveFeed::kPoses).size(), 320u + 32 * 13);
+  EXPECT_EQ(board_.at(LiveFeed::kPoses).size(), kPoseBytes + 32 * 13);
 }
 
 TEST_F(LiveFeedTest, SizesThatNobodyHasDrawNothing) {
@@ -167,7 +171,7 @@ TEST_F(LiveFeedTest, SizesThatNobodyHasDrawNothing) {
   body.size_mm[0] = -1;
   Publish("left.MOCAP_BODY", body);
   Publish("left.MOCAP_POSE", Pose());
-  EXPECT_EQ(board_.at(LiveFeed::kPoses).size(), 320u);
+  EXPECT_EQ(board_.at(LiveFeed::kPoses).size(), kPoseBytes);
 }
 
 TEST_F(LiveFeedTest, APoseThatIsNoNumberIsNotPassedOn) {
@@ -181,13 +185,40 @@ TEST_F(LiveFeedTest, EverybodyOfASetGoesOutAtOnceInColoursOfTheirOwn) {
   Publish("left.MOCAP_PEOPLE", People({4, 9}));
   Publish("left.MOCAP_BODIES", BodyOf(9));
   Publish("left.MOCAP_PEOPLE", People({4, 9}));
-  const std::size_t second = 320;
-  ASSERT_EQ(board_.at(LiveFeed::kPoses).size(), second + 320 + 32 * body_.shape().size());
+  const std::size_t second = kPoseBytes;
+  ASSERT_EQ(board_.at(LiveFeed::kPoses).size(), second + kPoseBytes + 32 * body_.shape().size());
   EXPECT_EQ(PosesAt<std::uint8_t>(1), 0);
   EXPECT_EQ(PosesAt<std::uint32_t>(316), 4u);
   EXPECT_EQ(PosesAt<std::uint8_t>(second + 1), 1);
-  EXPECT_EQ(PosesAt<std::uint32_t>(board_.at(LiveFeed::kPoses).size() - 4), 9u);
+  EXPECT_EQ(PosesAt<std::uint32_t>(board_.at(LiveFeed::kPoses).size() - 12), 9u);
   EXPECT_NEAR(PosesAt<float>(second + 316), 900, 500) << "the flesh is where the person is";
+}
+
+TEST_F(LiveFeedTest, APersonInDoubtComesWithTheRival) {
+  const people_t set = People({4, 9});
+  person_details_t details{};
+  details.utime = set.utime;
+  details.person = 9;
+  details.probability = 0.6;
+  details.rival_probability = 0.25;
+  details.rival_point_mm.assign(kPointCount, {1, 2, 3});
+  details.num_rival_points = kPointCount;
+  Publish("left.MOCAP_DETAILS", details);
+  Publish("left.MOCAP_PEOPLE", set);
+  ASSERT_EQ(board_.at(LiveFeed::kPoses).size(), 2 * kPoseBytes + 276);
+  EXPECT_TRUE(std::isnan(PosesAt<float>(320))) << "nothing was told of the first";
+  EXPECT_EQ(PosesAt<float>(kPoseBytes + 320), 0.6f);
+  EXPECT_EQ(PosesAt<float>(kPoseBytes + 324), 0.25f);
+  EXPECT_EQ(PosesAt<float>(2 * kPoseBytes + 272), 3);
+  details.rival_point_mm.resize(3);
+  details.num_rival_points = 3;
+  Publish("left.MOCAP_DETAILS", details);
+  Publish("left.MOCAP_PEOPLE", set);
+  EXPECT_EQ(board_.at(LiveFeed::kPoses).size(), 2 * kPoseBytes) << "three points are no body";
+  people_t later = set;
+  later.utime += 40'000;
+  Publish("left.MOCAP_PEOPLE", later);
+  EXPECT_TRUE(std::isnan(PosesAt<float>(kPoseBytes + 320))) << "they are of another set";
 }
 
 TEST_F(LiveFeedTest, WhoeverStaysKeepsTheColour) {
@@ -237,7 +268,7 @@ TEST_F(LiveFeedTest, ACrowdThatNoDaemonFollowsIsCutShort) {
   std::vector<int> ids(5000);
   for (std::size_t i = 0; i < ids.size(); ++i) ids[i] = static_cast<int>(i);
   Publish("left.MOCAP_PEOPLE", People(ids));
-  EXPECT_EQ(board_.at(LiveFeed::kPoses).size(), 8u * 320);
+  EXPECT_EQ(board_.at(LiveFeed::kPoses).size(), 8 * kPoseBytes);
   EXPECT_EQ(Colors().size(), 8u);
 }
 

@@ -61,16 +61,29 @@ TEST_F(TakeSiteTest, TellsFramesStatesAndErrors) {
   EXPECT_NEAR(result["joint_error_mm"][3][5], 12, 1e-6);
 }
 
+TEST_F(TakeSiteTest, TellsHowSureEachPoseIs) {
+  Result written = ReadResult(result_);
+  written.poses[5].probability = 0.6;
+  WriteResult(result_, written);
+  TakeSite site(take_, {result_});
+  const auto json = nlohmann::json::parse(Get(site, "/take.json"));
+  EXPECT_EQ(json["results"][0]["probability"][5], 0.6);
+  EXPECT_TRUE(json["results"][0]["probability"][6].is_null());
+  const std::string pose =
+      Get(site, "/poses.bin", {{"result", "0"}, {"from", "5"}, {"count", "1"}});
+  EXPECT_EQ(testing::NumberAt<float>(pose, 320), 0.6f);
+}
+
 TEST_F(TakeSiteTest, GivesPosesOfResultAndTruth) {
   TakeSite site(take_, {result_});
   const std::string poses =
       Get(site, "/poses.bin", {{"result", "0"}, {"from", "4"}, {"count", "3"}});
   // A result without all sizes has no capsules.
-  ASSERT_EQ(poses.size(), 3u * 320);
-  EXPECT_EQ(testing::NumberAt<double>(poses, 320 + 24), 5);
+  ASSERT_EQ(poses.size(), 3u * 328);
+  EXPECT_EQ(testing::NumberAt<double>(poses, 328 + 24), 5);
   const std::string truth =
       Get(site, "/poses.bin", {{"truth", "0"}, {"from", "4"}, {"count", "1"}});
-  ASSERT_EQ(truth.size(), 320u);
+  ASSERT_EQ(truth.size(), 328u);
   const std::size_t head_z = 40 + 1 * 12 + 8;
   EXPECT_NEAR(testing::NumberAt<float>(poses, head_z) - testing::NumberAt<float>(truth, head_z), 12,
               1e-3);
@@ -170,7 +183,7 @@ TEST_F(TakeSiteTest, EachTruePersonIsGivenAndWhoWasFollowedByWhom) {
   EXPECT_EQ(json["results"][0]["true_person"], 0);
   EXPECT_NEAR(json["results"][0]["error_mm"][5], 12, 1e-6);
   EXPECT_EQ(Get(site, "/poses.bin", {{"truth", "1"}, {"from", "4"}, {"count", "2"}}).size(),
-            2u * 320);
+            2u * 328);
   EXPECT_EQ(site.Answer({.method = "GET",
                          .path = "/poses.bin",
                          .query = {{"truth", "2"}, {"from", "0"}, {"count", "1"}},

@@ -19,9 +19,12 @@ TEST(Wire, APoseLiesWhereThePageReadsIt) {
   pose.row.residual_mm = 12.5;
   pose.row.voxels = 3000;
   pose.row.points_W.col(22) = Vector3(1, 2, 3);
+  pose.row.probability = 0.75;
+  pose.rival = RivalPose{0.25, BodyPoints::Constant(7)};
+  pose.rival->points_W.col(22) = Vector3(1, 2, 3);
   pose.capsules.emplace_back(Vector3(4, 5, 6), Vector3(7, 8, 9), 50, 40);
   const std::string bytes = PoseBytes(pose);
-  ASSERT_EQ(bytes.size(), 352u);
+  ASSERT_EQ(bytes.size(), 360u + 276);
   EXPECT_EQ(bytes.substr(0, 4), std::string("\1\2\2\1", 4));
   EXPECT_EQ(testing::NumberAt<std::uint16_t>(bytes, 4), 23);
   EXPECT_EQ(testing::NumberAt<std::uint16_t>(bytes, 6), 1);
@@ -34,6 +37,10 @@ TEST(Wire, APoseLiesWhereThePageReadsIt) {
   EXPECT_EQ(testing::NumberAt<float>(bytes, 316 + 12), 50);
   EXPECT_EQ(testing::NumberAt<float>(bytes, 316 + 16), 7);
   EXPECT_EQ(testing::NumberAt<std::uint32_t>(bytes, 348), 300u);
+  EXPECT_EQ(testing::NumberAt<float>(bytes, 352), 0.75f);
+  EXPECT_EQ(testing::NumberAt<float>(bytes, 356), 0.25f);
+  EXPECT_EQ(testing::NumberAt<float>(bytes, 360), 7);
+  EXPECT_EQ(testing::NumberAt<float>(bytes, 360 + 22 * 12 + 8), 3);
 }
 
 voxels_t Cube(int side) {

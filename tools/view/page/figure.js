@@ -1,6 +1,7 @@
-// One person or result: body, joints and sticks, trails, voxels, shadow.
+// One person or result: body, joints and sticks, trails, voxels, shadow; the rival in doubt.
 
 import {CapsuleMesh} from './capsule_mesh.js';
+import {dashesOf, isDoubtful} from './doubt.js';
 import {rgb} from './theme.js';
 import * as THREE from './three.js';
 import {VoxelMesh} from './voxel_mesh.js';
@@ -9,6 +10,11 @@ const TRAIL_MS = 1500;
 const TRAIL_STEP_MS = 25;
 const TRAIL_POINTS = ['fingertips_l', 'fingertips_r', 'foot_l', 'foot_r'];
 const PARTS = 10;
+const RIVAL_MM = 9;
+const OLD_OPACITY = 0.3;
+const DOUBT_OPACITY = 0.55;
+// A doubtful body's colour is mixed with the ground's, so that it is paler, not only thinner.
+const DOUBT_PALENESS = 0.45;
 
 export class Figure extends THREE.Group {
   /**
@@ -23,6 +29,8 @@ export class Figure extends THREE.Group {
     this.body = new CapsuleMesh(64, {transparent: true});
     this.sticks = new CapsuleMesh(
         128, {thin: true, transparent: true, depthTest: false, depthWrite: false, glow: 0.7});
+    this.rival =
+        new CapsuleMesh(128, {thin: true, transparent: true, depthWrite: false, glow: 0.9});
     this.trails = new CapsuleMesh(
         4 * (TRAIL_MS / TRAIL_STEP_MS + 2),
         {thin: true, transparent: true, depthWrite: false, glow: 0.8});
@@ -32,7 +40,8 @@ export class Figure extends THREE.Group {
     // Sticks lie inside the body and are drawn over it; the truth is drawn over everything.
     this.sticks.renderOrder = onlySticks ? 3 : 2;
     this.shownLayers = {body: true, joints: true, trails: true, voxels: true};
-    this.add(this.shadow, this.body, this.sticks, this.trails);
+    this.rival.renderOrder = 2;
+    this.add(this.shadow, this.body, this.sticks, this.rival, this.trails);
     this.castsShadow = true;
     this.setModel({point_names: [], bones: []});
     this.recolor();
@@ -46,6 +55,8 @@ export class Figure extends THREE.Group {
 
   recolor() {
     this.tint = rgb(this.color);
+    const ground = rgb('ground');
+    this.paleTint = this.tint.map((value, i) => value + DOUBT_PALENESS * (ground[i] - value));
     this.stickTint = this.onlySticks ? this.tint :
         this.ownSticks               ? this.tint.map((value) => 0.45 * value) :
                                        rgb('stick');
@@ -64,13 +75,18 @@ export class Figure extends THREE.Group {
     this.castsShadow = isOn;
   }
 
-  /** Shows a pose; null: nobody. A faded pose is known to be old. */
+  /**
+   * Shows a pose; null: nobody. A faded pose is known to be old. A pose in doubt is pale, and its
+   * rival is dashed.
+   */
   show(pose, {faded = false} = {}) {
     this.visible = pose !== null && pose.hasPose;
     this.shown = this.visible ? pose : null;
     if (!this.visible) return;
-    this.showBody(pose, faded ? 0.3 : 1);
+    this.isPale = isDoubtful(pose);
+    this.showBody(pose, faded ? OLD_OPACITY : this.isPale ? DOUBT_OPACITY : 1);
     this.showSticks(pose, faded ? 0.35 : 1);
+    this.showRival(this.isPale && !faded ? pose.rival : null);
     const source = this.onlySticks ? this.sticks : this.body;
     this.shadow.visible = this.castsShadow && source.visible;
   }
@@ -86,7 +102,7 @@ export class Figure extends THREE.Group {
     this.body.clear();
     if (capsules.length / 8 > this.body.capacity) this.body.reserve(capsules.length / 8);
     for (let i = 0; i + 8 <= capsules.length; i += 8) {
-      this.body.add(...capsules.subarray(i, i + 8), this.tint);
+      this.body.add(...capsules.subarray(i, i + 8), this.isPale ? this.paleTint : this.tint);
     }
     this.body.commit();
     this.body.visible = this.shownLayers.body && this.body.count > 0;
@@ -108,6 +124,17 @@ export class Figure extends THREE.Group {
     this.sticks.commit();
     this.sticks.visible = this.shownLayers.joints && this.sticks.count > 0;
     this.sticks.material.uniforms.opacity.value = opacity;
+  }
+
+  /** Draws the likeliest other pose in dashed lines; null: there is none. */
+  showRival(rival) {
+    this.rival.clear();
+    const at = (i) => [...rival.points.subarray(3 * i, 3 * i + 3)];
+    const dashes = rival ? this.bones.flatMap(([i, j]) => dashesOf(at(i), at(j))) : [];
+    if (dashes.length > this.rival.capacity) this.rival.reserve(dashes.length);
+    for (const [a, b] of dashes) this.rival.add(...a, RIVAL_MM, ...b, RIVAL_MM, this.tint);
+    this.rival.commit();
+    this.rival.visible = this.shownLayers.joints && this.rival.count > 0;
   }
 
   /** Draws the paths of hands and feet. @param poseAt capture time [ms] → pose or null. */
@@ -145,7 +172,8 @@ export class Figure extends THREE.Group {
   }
 
   dispose() {
-    for (const mesh of [this.body, this.sticks, this.trails, this.voxels, this.shadow]) {
+    for (const mesh
+             of [this.body, this.sticks, this.rival, this.trails, this.voxels, this.shadow]) {
       mesh.geometry.dispose();
       mesh.material.dispose();
     }

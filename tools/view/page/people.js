@@ -1,5 +1,6 @@
 // The people of the live studio: recent poses, and their figures in the scene.
 
+import {doubtText, withDoubt} from './doubt.js';
 import {LiveClock} from './live_clock.js';
 import {PoseHistory} from './pose_history.js';
 import {figureColor} from './theme.js';
@@ -95,7 +96,8 @@ export class People {
     const figure = this.figure(person);
     if (figure) {
       const {id} = history.newest;
-      figure.label = this.histories.size > 1 ? this.labelOf(id) : this.nameOf(id);
+      const label = this.histories.size > 1 ? this.labelOf(id) : this.nameOf(id);
+      figure.label = pose ? withDoubt(label, pose) : label;
       figure.show(pose, {faded: ageMs > OLD_MS});
       figure.showTrails(pose?.timeMs ?? 0, (t) => history.at(t));
     }
@@ -122,6 +124,7 @@ export class People {
         label: this.labelOf(newest.id),
         state: newest.state,
         residualMm: newest.hasPose ? newest.residualMm : null,
+        doubt: newest.hasPose ? doubtText(newest) : '',
         followedS: told && serverNowMs !== null ? (serverNowMs - told.since_ms) / 1000 : null,
         hasCome: told?.has_come ?? false,
       };

@@ -1,6 +1,7 @@
 // Panel of a take: its results at the present frame, and the error by joint.
 
 import {byId, make, setText} from './dom.js';
+import {doubtText} from './doubt.js';
 import {beginPlot, drawLabel, drawLevel} from './plot.js';
 import {fixed, partText} from './text.js';
 import {color, figureColor, onTheme} from './theme.js';
@@ -195,7 +196,9 @@ export class ResultPanel {
     this.frame = frame;
     this.progress = frame / Math.max(1, last);
     this.take.results.forEach((result, k) => {
-      setText(this.rows[k].state, STATES[result.states[frame]] ?? '–');
+      const probability = result.probability[frame] ?? NaN;
+      const state = STATES[result.states[frame]] ?? '–';
+      setText(this.rows[k].state, [state, doubtText({probability})].filter(Boolean).join(', '));
       setText(this.rows[k].error, `${fixed(result.error_mm[frame] ?? NaN, 1)} mm`);
       setText(this.rows[k].residual, `${fixed(result.residual_mm[frame] ?? NaN, 1)} mm`);
     });

@@ -1,6 +1,7 @@
 // State panel: the state, whether all is good, the diagnostics verbatim, and the figures.
 
 import {byId, make, setText} from './dom.js';
+import {doubtText} from './doubt.js';
 import {ageText, bytesText, clockText, fixed, partText, withoutNumbers} from './text.js';
 
 const LEAST_DISK_BYTES = 5e9;
@@ -9,11 +10,7 @@ const LEAST_DISK_BYTES = 5e9;
 export function verdictOf({isOpen, sinceClosedS, silence, serviceAgeS, poseAgeS, complaints}) {
   if (!isOpen) {
     const since = sinceClosedS >= 2 ? ` for ${ageText(sinceClosedS)}` : '';
-    return {
-      tone: 'bad',
-      text: `No connection to mocap view${since}. Retrying.`,
-      lines: []
-    };
+    return {tone: 'bad', text: `No connection to mocap view${since}. Retrying.`, lines: []};
   }
   if (silence) return {tone: 'bad', text: silence, lines: []};
   if (serviceAgeS === null) return {tone: 'muted', text: 'Waiting for mocapd.', lines: []};
@@ -42,12 +39,12 @@ function makePersonRow() {
   return make('tr', {}, who, make('td'), make('td'), make('td'));
 }
 
-function tellPerson(row, {color, label, state, residualMm, followedS, hasCome}) {
+function tellPerson(row, {color, label, state, doubt, residualMm, followedS, hasCome}) {
   const [who, stateCell, fit, since] = row.children;
   const [swatch, name] = who.children;
   swatch.className = `swatch ${color}`;
   setText(name, label);
-  setText(stateCell, state);
+  setText(stateCell, doubt ? `${state}, ${doubt}` : state);
   setText(fit, fixed(residualMm ?? NaN, 1));
   const age = ageText(followedS);
   setText(since, hasCome || followedS === null ? age : `≥ ${age}`);
@@ -107,6 +104,7 @@ export class StatePanel {
   /** @param pose the newest pose; null if nobody is present. */
   setFit(pose) {
     setText(byId('fit'), pose ? fixed(pose.residualMm, 1) : '–');
+    setText(byId('doubt'), pose ? doubtText(pose) : '');
     setText(byId('voxel-count'), pose ? pose.voxels : '–');
   }
 

@@ -12,7 +12,8 @@ const CAPSULE_FLOATS = 8;
 const VOXELS_HEADER_BYTES = 32;
 const PICTURE_HEADER_BYTES = 32;
 const POINT_COUNT = 23;
-const ID_BYTES = 4;
+const DOUBT_BYTES = 12;  // id and probabilities
+const POINTS_BYTES = 4 * 3 * POINT_COUNT;
 const LINE_SIDES = 4;
 
 function require(buffer, end) {
@@ -30,13 +31,19 @@ export function kindOf(buffer, begin = 0) {
   return buffer.byteLength > begin ? new Uint8Array(buffer, begin, 1)[0] : 0;
 }
 
-/** Decodes the pose at `begin`; `end` is the start of the next message. */
+/**
+ * Decodes the pose at `begin`; `end` is the start of the next message. The probability is NaN if it
+ * is not known; `rival` is the likeliest other pose, or null.
+ */
 export function decodePose(buffer, begin = 0) {
   require(buffer, begin + POSE_HEADER_BYTES);
   const view = new DataView(buffer, begin);
   const capsuleCount = view.getUint16(6, true);
   const idAt = POSE_HEADER_BYTES + 4 * CAPSULE_FLOATS * capsuleCount;
-  const end = begin + idAt + ID_BYTES;
+  const rivalAt = begin + idAt + DOUBT_BYTES;
+  require(buffer, rivalAt);
+  const rivalProbability = view.getFloat32(idAt + 8, true);
+  const end = rivalAt + (rivalProbability > 0 ? POINTS_BYTES : 0);
   require(buffer, end);
   return {
     person: view.getUint8(1),
@@ -50,6 +57,10 @@ export function decodePose(buffer, begin = 0) {
     voxels: view.getUint32(36, true),
     points: floats(buffer, begin + 40, 3 * POINT_COUNT),
     capsules: floats(buffer, begin + POSE_HEADER_BYTES, CAPSULE_FLOATS * capsuleCount),
+    probability: view.getFloat32(idAt + 4, true),
+    rival: rivalProbability > 0 ?
+        {probability: rivalProbability, points: floats(buffer, rivalAt, 3 * POINT_COUNT)} :
+        null,
     end,
   };
 }

@@ -10,6 +10,10 @@ const {VoxelMesh} = await import(`${page}voxel_mesh.js`);
 const {Figure} = await import(`${page}figure.js`);
 const {CameraModels} = await import(`${page}camera_models.js`);
 
+// A light ground, as pale bodies are mixed with it.
+globalThis.getComputedStyle = () =>
+    ({getPropertyValue: (name) => name === '--ground' ? '#ffffff' : '#204080'});
+
 const MODEL = {
   point_names: ['torso', 'fingertips_l', 'foot_r'],
   bones: [[0, 1], [0, 2]]
@@ -50,6 +54,37 @@ test('the drawn pose is read from what is drawn', () => {
   assert.equal(figure.drawnPose(), null);
   figure.show(poseAt(500, {hasPose: false}));
   assert.equal(figure.visible, false);
+});
+
+test('a pose in doubt is pale, and its rival is dashed', () => {
+  const figure = figureOf();
+  const doubtful = {
+    ...poseAt(500),
+    probability: 0.6,
+    rival: {probability: 0.3, points: Float32Array.from([0, 0, 1000, 0, 500, 1200, 0, 100, 50])}
+  };
+  const tintOf = (mesh) => [...mesh.geometry.attributes.tint.array.slice(0, 3)];
+  figure.show(poseAt(500));
+  const usual = tintOf(figure.body);
+  assert.equal(figure.body.material.uniforms.opacity.value, 1);
+  assert.equal(figure.rival.visible, false);
+  figure.show(doubtful);
+  tintOf(figure.body).forEach((value, i) => assert.ok(value > usual[i] + 0.1, 'not paler'));
+  assert.ok(figure.body.material.uniforms.opacity.value < 1);
+  assert.ok(figure.rival.count > 10, `${figure.rival.count} dashes`);
+  assert.equal(figure.rival.visible, true);
+  assert.deepEqual(tintOf(figure.rival), usual);
+  figure.show({...doubtful, probability: 0.97});
+  assert.deepEqual(tintOf(figure.body), usual);
+  assert.equal(figure.rival.visible, false);
+});
+
+test('a rival of more dashes than ever gets its room', () => {
+  const figure = figureOf();
+  const points = Float32Array.from([0, 0, 0, 20000, 0, 0, 0, 0, 0]);
+  figure.show({...poseAt(500), probability: 0.6, rival: {probability: 0.3, points}});
+  assert.ok(figure.rival.count > 200);
+  assert.equal(Math.max(...figure.rival.geometry.attributes.b.array), 20000);
 });
 
 test('a body of more capsules than ever gets its room', () => {

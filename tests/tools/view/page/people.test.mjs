@@ -66,6 +66,12 @@ test('the panel tells the name, or the number, and since when', () => {
   assert.equal(other.hasCome, true);
 });
 
+test('the panel tells how sure a pose in doubt is', () => {
+  const people = peopleOf(
+      [pose(0, 1, 100, {probability: 0.6}), pose(1, 2, 100, {probability: 0.99}), pose(2, 3, 100)]);
+  assert.deepEqual(people.rows(140).map((row) => row.doubt), ['60\u00a0%\u00a0sure', '', '']);
+});
+
 test('nobody is old or gone because the clock of the studio was put back', () => {
   const noonMs = 1.7e12;
   for (const stepMs of [-800, -3600000]) {

@@ -29,6 +29,15 @@ test('between two poses the pose is on the straight line', () => {
   assert.ok(Math.abs(shown.frame - 10.4) < 1e-9);
 });
 
+test('a rival moves along as the pose does, and comes and goes with a pose', () => {
+  const rival = (x) => ({probability: 0.3, points: new Float32Array([x, 0, 0])});
+  const both = historyOf(pose(100, 0, {rival: rival(0)}), pose(110, 10, {rival: rival(20)}));
+  assert.ok(Math.abs(both.at(104).rival.points[0] - 8) < 1e-5);
+  const first = historyOf(pose(100, 0, {rival: rival(5)}), pose(110, 10, {rival: null}));
+  assert.equal(first.at(104).rival.points[0], 5);
+  assert.equal(first.at(110).rival, null);
+});
+
 test('outside of what is known the nearest pose is shown as it was received', () => {
   const history = historyOf(pose(100, 1), pose(110, 2));
   assert.equal(history.at(50).points[0], 1);

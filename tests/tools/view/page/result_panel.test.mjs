@@ -15,6 +15,7 @@ function result(name, more = {}) {
     states: [TRACKING, TRACKING, LOST],
     error_mm: [10, 20, null],
     residual_mm: [5, 6, null],
+    probability: [1, null, null],
     joints: ['hand_l', 'hip_r'],
     joint_error_mm: [[30, 50, null], [1, 2, null]],
     ...more
@@ -52,13 +53,21 @@ test('a frame tells state, error and residual; none is a dash, not a zero', () =
   const {panel} = open([result('a')]);
   panel.show(1, 2);
   assert.deepEqual(factsOf(panel.rows[0]), [
-    ['State', 'tracking'], ['Error now', '20.0 mm'], ['Mean error', '15.0 mm'],
-    ['Fit', '6.0 mm']
+    ['State', 'tracking'], ['Error now', '20.0 mm'], ['Mean error', '15.0 mm'], ['Fit', '6.0 mm']
   ]);
   panel.show(2, 2);
   assert.deepEqual(
       factsOf(panel.rows[0]),
       [['State', 'lost'], ['Error now', '– mm'], ['Mean error', '15.0 mm'], ['Fit', '– mm']]);
+});
+
+test('a frame in doubt tells how sure its pose is', () => {
+  const {panel} = open([result('a', {probability: [0.6, 0.97, null]})]);
+  const states = [0, 1].map((frame) => {
+    panel.show(frame, 2);
+    return factsOf(panel.rows[0])[0][1];
+  });
+  assert.deepEqual(states, ['tracking, 60\u00a0%\u00a0sure', 'tracking']);
 });
 
 test('without truth there is no error and no table of joints', () => {

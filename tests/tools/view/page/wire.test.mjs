@@ -3,8 +3,8 @@ import test from 'node:test';
 
 import {decodeAll, decodePicture, decodePose, decodeVoxels, kindOf, splitLines} from '../../../../tools/view/page/wire.js';
 
-function poseBytes({person = 0, id = 0, capsules = 2, frame = 7} = {}) {
-  const buffer = new ArrayBuffer(320 + 32 * capsules);
+function poseBytes({person = 0, id = 0, capsules = 2, frame = 7, rival = 0} = {}) {
+  const buffer = new ArrayBuffer(328 + 32 * capsules + (rival > 0 ? 276 : 0));
   const view = new DataView(buffer);
   [1, person, 2, 1].forEach((value, i) => view.setUint8(i, value));
   view.setUint16(4, 23, true);
@@ -15,7 +15,11 @@ function poseBytes({person = 0, id = 0, capsules = 2, frame = 7} = {}) {
   view.setUint32(36, 4200, true);
   for (let i = 0; i < 69; ++i) view.setFloat32(40 + 4 * i, i, true);
   for (let i = 0; i < 8 * capsules; ++i) view.setFloat32(316 + 4 * i, 100 + i, true);
-  view.setUint32(316 + 32 * capsules, id, true);
+  const idAt = 316 + 32 * capsules;
+  view.setUint32(idAt, id, true);
+  view.setFloat32(idAt + 4, 0.75, true);
+  view.setFloat32(idAt + 8, rival, true);
+  for (let i = 0; rival > 0 && i < 69; ++i) view.setFloat32(idAt + 12 + 4 * i, 200 + i, true);
   return buffer;
 }
 
@@ -55,15 +59,25 @@ test('a pose is read field by field', () => {
   assert.deepEqual([...pose.points.slice(66)], [66, 67, 68]);
   assert.deepEqual([...pose.capsules.slice(0, 2)], [100, 101]);
   assert.equal(pose.capsules.length, 16);
+  assert.equal(pose.probability, 0.75);
+  assert.equal(pose.rival, null);
 });
 
-test('poses that stand one after the other are told apart by their capsules', () => {
-  const buffer = joined(poseBytes({capsules: 0, frame: 1}), poseBytes({capsules: 3, frame: 2}));
+test('a rival is read with its points', () => {
+  const {rival} = decodePose(poseBytes({rival: 0.25}));
+  assert.equal(rival.probability, 0.25);
+  assert.equal(rival.points.length, 69);
+  assert.deepEqual([...rival.points.slice(66)], [266, 267, 268]);
+});
+
+test('poses that stand one after the other are told apart by their capsules and rivals', () => {
+  const buffer =
+      joined(poseBytes({capsules: 0, frame: 1, rival: 0.5}), poseBytes({capsules: 3, frame: 2}));
   assert.deepEqual(decodeAll(buffer, decodePose).map((pose) => pose.frame), [1, 2]);
 });
 
 test('a message that is cut off is a RangeError, wherever it is cut', () => {
-  const whole = poseBytes();
+  const whole = poseBytes({rival: 0.25});
   for (let end = 0; end < whole.byteLength; end += 7) {
     assert.throws(() => decodePose(whole.slice(0, end)), RangeError);
   }
