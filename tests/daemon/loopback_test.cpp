@@ -79,7 +79,6 @@ class StateLog : public PoseSink {
     const std::lock_guard lock(mutex_);
     ++sets_;
     if (set.result.state == CaptureState::kTracking) ++tracked_;
-    if (set.result.state == CaptureState::kAcquiring) ++acquiring_;
     changed_.notify_all();
   }
 
@@ -89,14 +88,16 @@ class StateLog : public PoseSink {
     changed_.wait_for(lock, kPatience, [&] { return sets_ >= sets; });
   }
 
-  int sets() const { return sets_; }
+  int sets() {
+    const std::lock_guard lock(mutex_);
+    return sets_;
+  }
   int tracked() const { return tracked_; }
-  int acquiring() const { return acquiring_; }
 
  private:
   std::mutex mutex_;
   std::condition_variable changed_;
-  int sets_ = 0, tracked_ = 0, acquiring_ = 0;
+  int sets_ = 0, tracked_ = 0;
 };
 
 TEST(Loopback, PersonInFrontOfKernelDevicesIsTracked) {
@@ -128,19 +129,20 @@ TEST(Loopback, PersonInFrontOfKernelDevicesIsTracked) {
   for (bool goes_on = true; goes_on; ++frames) {
     for (std::size_t i = 0; i < feeds.size() && goes_on; ++i)
       goes_on = played.cameras[i].driver->Grab(pictures[i], kPatience) == GrabStatus::kFrame;
+    // One further set: a lost one is waited for once, and not again before each of the others,
+    // whose gaps would make the person be forgotten.
+    const int before = log.sets();
     // One after the other, close enough in time for one set.
     for (std::size_t i = 0; i < feeds.size() && goes_on; ++i)
       ASSERT_TRUE(feeds[i]->Write(pictures[i].image));
     // Devices have a format only once there is a picture.
     if (frames == 0) pipeline.Start();
-    if (goes_on && frames > 0) log.WaitFor(frames);
+    if (goes_on && frames > 0) log.WaitFor(before + 1);
   }
   pipeline.RequestStop();
   pipeline.Join();
   std::printf("%d sets written, %d came through, %d tracked\n", frames, log.sets(), log.tracked());
-  EXPECT_GT(log.tracked(), 0);
-  // Where a search takes longer than the gap after which everybody is forgotten, it is repeated.
-  EXPECT_GT(log.tracked() + log.acquiring(), frames / 2);
+  EXPECT_GT(log.tracked(), frames / 2);
 }
 
 }  // namespace
