@@ -2,7 +2,6 @@
 
 #include <Eigen/Eigenvalues>
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <memory>
 #include <optional>
@@ -38,21 +37,9 @@ constexpr StateLimits kLimits{};
 // Computes the covariance of a point of the body from that of the joints that move it.
 Matrix3 CovarianceOf(const BodyModel& body, const Posture& posture, Point point,
                      const Vector3& p_WQ, const PoseCovariance& pose) {
-  using Jacobian = Eigen::Matrix<double, 3, Eigen::Dynamic, Eigen::ColMajor, 3, kMaxDof>;
-  const int carrier = body.CarrierOf(point);
-  Jacobian J(3, body.dof());
-  body.PointJacobian(posture, carrier, p_WQ, J);
-  std::array<int, kMaxDof> moving;
-  int count = 0;
-  while (count < kTorsoDof) moving[count] = count, ++count;
-  for (int i = carrier; i >= 0; i = body.table().joints[i].parent) moving[count++] = kTorsoDof + i;
-  Matrix3 covariance = Matrix3::Zero();
-  for (int j = 0; j < count; ++j) {
-    Vector3 sum = Vector3::Zero();
-    for (int i = 0; i < count; ++i) sum += pose(moving[i], moving[j]) * J.col(moving[i]);
-    covariance += sum * J.col(moving[j]).transpose();
-  }
-  return covariance;
+  Eigen::Matrix<double, 3, Eigen::Dynamic, Eigen::ColMajor, 3, kMaxDof> J(3, body.dof());
+  body.PointJacobian(posture, body.CarrierOf(point), p_WQ, J);
+  return J * pose * J.transpose();
 }
 
 class SurfaceCapture : public MotionCapture {
@@ -73,8 +60,7 @@ class SurfaceCapture : public MotionCapture {
     if (evidence_.cloud.volume_litres() < kLimits.least_litres) {
       NobodyThere(dt_s);
     } else {
-      heading_ = heading_watch_.Look(evidence_.cloud, dt_s);
-      objective_.SetEvidence(evidence_, heading_);
+      objective_.SetEvidence(evidence_);
       SomebodyThere(dt_s);
     }
     Report(dt_s);
@@ -115,7 +101,6 @@ class SurfaceCapture : public MotionCapture {
   void Lose() {
     result_.state = CaptureState::kLost;
     sizes_of_lost_ = hypotheses_.best().sizes;
-    heading_watch_.StartOver();
     lost_s_ = 0;
   }
 
@@ -129,7 +114,6 @@ class SurfaceCapture : public MotionCapture {
     result_.state = CaptureState::kSearching;
     hypotheses_.Clear();
     scheduler_.StartOver();
-    heading_watch_.StartOver();
     known_ = given_;
     sizes_of_lost_.reset();
     looks_anew_ = true;
@@ -151,11 +135,9 @@ class SurfaceCapture : public MotionCapture {
     }
   }
 
-  Scheduler::Frame Frame() { return {objective_, evidence_, heading_}; }
-
   void Search(double dt_s) {
     const double effort = std::exchange(looks_anew_, false) ? 1 : EffortWithin(dt_s);
-    std::vector<Hypothesis> found = scheduler_.FindAnybody(Frame(), known_, {effort});
+    std::vector<Hypothesis> found = scheduler_.FindAnybody(objective_, known_, {effort});
     if (found.empty() || !found.front().fitness.IsCredible()) return;
     if (known_ && IsStranger(found.front(), effort)) return;
     // Sizes that were not settled when the person was lost go on being measured.
@@ -173,7 +155,7 @@ class SurfaceCapture : public MotionCapture {
   // Whether a body of other sizes explains the evidence clearly better than the known one.
   bool IsStranger(const Hypothesis& known, double effort) {
     const std::vector<Hypothesis> strangers =
-        scheduler_.FindAnybody(Frame(), std::nullopt, {effort});
+        scheduler_.FindAnybody(objective_, std::nullopt, {effort});
     if (strangers.empty()) return false;
     const double lead = known.fitness.Sum() - strangers.front().fitness.Sum();
     return kFrameWorth * lead > kLimits.stranger_nats;
@@ -181,8 +163,8 @@ class SurfaceCapture : public MotionCapture {
 
   void Follow(double dt_s) {
     const BodySizes before = body().sizes();
-    hypotheses_.Follow(objective_, evidence_.cloud, dt_s);
-    scheduler_.Try(Frame(), hypotheses_, SizesAreKnown(), dt_s);
+    hypotheses_.Follow(objective_, dt_s);
+    scheduler_.Try(objective_, hypotheses_, SizesAreKnown(), dt_s);
     RefineSizes();
     if (result_.state == CaptureState::kAcquiring) {
       ++frames_acquiring_;
@@ -263,8 +245,6 @@ class SurfaceCapture : public MotionCapture {
   Scheduler scheduler_;
   BodyModel nobody_;
   Evidence evidence_;
-  HeadingWatch heading_watch_;
-  Heading heading_;
   Objective objective_;
   HypothesisSet hypotheses_;
   SteadyPose steady_;

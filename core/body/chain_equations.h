@@ -52,4 +52,10 @@ class ChainEquations {
   std::array<Sum, kMaxJoints + 1> sums_;  ///< The torso's first.
 };
 
+/// What linearised measurements are added to: those of points of the body, and all others.
+struct Linearisation {
+  ChainEquations& chain;
+  UpdateEquations& equations;
+};
+
 }  // namespace mocap

@@ -46,8 +46,10 @@ std::optional<Range> AlongVoxels(const VoxelCloud& cloud, const GrazingRay& ray,
 }
 
 BoundingEdge EdgeOf(const GrazingRay& ray, const Range& range) {
-  return {ray.eye_W + range.from_mm * ray.direction_W, ray.eye_W + range.to_mm * ray.direction_W,
-          ray.outward_W, false, ray.rank};
+  return {{ray.eye_W + range.from_mm * ray.direction_W, ray.eye_W + range.to_mm * ray.direction_W,
+           ray.outward_W},
+          false,
+          ray.rank};
 }
 
 double ShareOf(int part, int all) { return static_cast<double>(part) / std::max(1, all); }

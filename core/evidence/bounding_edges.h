@@ -4,17 +4,15 @@
 #include <span>
 #include <vector>
 
+#include "core/body/segment_matcher.h"
 #include "core/reconstruction/carving/voxel_cloud.h"
 #include "core/reconstruction/silhouette/outline.h"
 
 namespace mocap {
 
 /// The part of a grazing ray along the visual hull. Somewhere on it the ray touches the person
-/// (Cheung, Baker and Kanade 2003).
-struct BoundingEdge {
-  Vector3 from_W;
-  Vector3 to_W;
-  Vector3 outward_W;  ///< The person's normal at the point of contact; unit length.
+/// (Cheung, Baker and Kanade 2003), with this normal.
+struct BoundingEdge : OrientedSegment {
   /// The ray misses the hull: another camera did not see what it grazes, so it was carved away.
   bool misses_hull = false;
   SpreadRank rank = 0;  ///< Of the ray.

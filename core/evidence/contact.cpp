@@ -1,6 +1,6 @@
 #include "core/evidence/contact.h"
 
-#include "core/spread_choice.h"
+#include "core/kernels/spread_choice.h"
 
 namespace mocap {
 
@@ -18,14 +18,13 @@ void ChooseContacts(const Evidence& evidence, int voxels, int edges,
   for (const int index : cloud.surface()) {
     const Voxel& voxel = cloud.voxels()[index];
     if (rank_of(voxel) < last_voxel)
-      contacts.push_back({voxel.center_W, voxel.center_W, cloud.NormalAt(voxel), false});
+      contacts.push_back({{voxel.center_W, voxel.center_W, cloud.NormalAt(voxel)}, false});
   }
   SpreadChoice of_edges;
   for (const BoundingEdge& edge : evidence.edges) of_edges.Add(edge.rank);
   const std::uint64_t last_edge = of_edges.LimitFor(static_cast<std::size_t>(edges));
   for (const BoundingEdge& edge : evidence.edges) {
-    if (edge.rank < last_edge)
-      contacts.push_back({edge.from_W, edge.to_W, edge.outward_W, true, edge.misses_hull});
+    if (edge.rank < last_edge) contacts.push_back({edge, true, edge.misses_hull});
   }
 }
 

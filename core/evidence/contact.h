@@ -4,16 +4,13 @@
 #include <span>
 #include <vector>
 
-#include "core/body/body_shape.h"
+#include "core/body/segment_matcher.h"
 #include "core/evidence/evidence.h"
 
 namespace mocap {
 
 /// A point on the voxels' surface (from_W = to_W), or a bounding edge.
-struct Contact {
-  Vector3 from_W;
-  Vector3 to_W;
-  Vector3 outward_W;  ///< The surface's normal there.
+struct Contact : OrientedSegment {
   bool is_edge;
   bool misses_hull = false;  ///< An edge of something that was carved away.
 };

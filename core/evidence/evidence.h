@@ -2,10 +2,11 @@
 #pragma once
 
 #include <algorithm>
-#include <span>
+#include <optional>
 #include <vector>
 
 #include "core/evidence/bounding_edges.h"
+#include "core/evidence/feet.h"
 #include "core/motion_capture.h"
 #include "core/reconstruction/carving/voxel_cloud.h"
 
@@ -25,12 +26,15 @@ struct Evidence {
   VoxelCloud cloud;
   std::vector<Outline> borders;  ///< One per camera; empty for cameras that are missing.
   std::vector<BoundingEdge> edges;
+  std::optional<Vector3> toes_W;  ///< Where the feet point; see FeetFinder.
   BoundingEdgeFinder edge_finder;
+  FeetFinder feet_finder;
 
   void Gather(const Sighting& sighting) {
     cloud.Build(sighting.flesh, sighting.room);
     borders.assign(sighting.borders.begin(), sighting.borders.end());
     edge_finder.Find(cloud, sighting.outlines, sighting.box_W, edges);
+    toes_W = feet_finder.ToesBeforeShins(cloud);
   }
 
   /// Share of the edges that miss the hull: holes and stray blobs of silhouettes.

@@ -54,8 +54,8 @@ void HypothesisSet::Begin(std::vector<Hypothesis> hypotheses,
   Judge();
 }
 
-void HypothesisSet::Follow(Objective& objective, const VoxelCloud& cloud, double dt_s) {
-  const Vector3 middle_W = cloud.Centroid();
+void HypothesisSet::Follow(Objective& objective, double dt_s) {
+  const Vector3 middle_W = objective.evidence().cloud.Centroid();
   const Vector3 moved_W = middle_W_ ? Vector3(middle_W - *middle_W_) : Vector3::Zero();
   worth_ = kFrameWorth * std::min(1.0, dt_s / kOdds.alike_s);
   for (Hypothesis& hypothesis : hypotheses_) {

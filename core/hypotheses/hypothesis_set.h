@@ -29,7 +29,7 @@ class HypothesisSet {
   void Begin(std::vector<Hypothesis> hypotheses,
              const std::optional<Vector3>& middle_W = std::nullopt);
   /// Predicts all hypotheses, fits them to the next frame and weighs them.
-  void Follow(Objective& objective, const VoxelCloud& cloud, double dt_s);
+  void Follow(Objective& objective, double dt_s);
   /// Adds a pose that a body may have instead, as of this frame. If it is likelier, it takes over
   /// the trials. @param present  a copy of one of the set.
   void Vary(Objective& objective, Hypothesis& present, const PoseState& pose);

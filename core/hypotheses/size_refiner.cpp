@@ -108,7 +108,9 @@ void SizeRefiner::Add(const BodyModel& body, Objective& objective, const PoseSta
   for (const SurfaceResidual& residual : objective.ResidualsAt(body, pose)) {
     if (residual.kind == ResidualKind::kSurface) continue;
     row.head(pose_dof) = residual.J_outside_by_step;
-    for (int i = 0; i < count_; ++i) row[pose_dof + i] = by_size_.OutwardBySize(residual, i);
+    for (int i = 0; i < count_; ++i)
+      row[pose_dof + i] =
+          by_size_.OutwardBySize(residual.capsule, residual.share, residual.normal_W, i);
     // A residual depends on one chain of joints and on few sizes: most of its row is zero.
     kernels::AddSquareBelow(row.data(), n, 1 / residual.variance, H.data());
     g += row * (residual.outside_mm / residual.variance);

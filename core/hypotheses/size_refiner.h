@@ -4,7 +4,7 @@
 #include <Eigen/Core>
 
 #include "core/body/body_model.h"
-#include "core/hypotheses/size_jacobian.h"
+#include "core/body/size_jacobian.h"
 #include "core/objective/objective.h"
 
 namespace mocap {

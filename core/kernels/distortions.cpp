@@ -1,5 +1,7 @@
 #include "core/kernels/distortions.h"
 
+#include "core/kernels/prefetch.h"
+
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "core/kernels/distortions.cpp"
 #include "core/kernels/each_target.h"

@@ -110,6 +110,24 @@ int FindNearestPoint(const double* x, const double* y, const double* z, int coun
   return HWY_DYNAMIC_DISPATCH(FindNearest)(x, y, z, count, place);
 }
 
+void NearestPoint::Add(const std::array<double, 3>& point) {
+  for (std::size_t axis = 0; axis < axes_.size(); ++axis) {
+    // After the last point there are some at infinite distance.
+    if (count_ % kPointStep == 0) {
+      axes_[axis].resize(count_);
+      axes_[axis].resize(count_ + kPointStep, std::numeric_limits<double>::infinity());
+    }
+    axes_[axis][count_] = point[axis];
+  }
+  ++count_;
+}
+
+std::array<double, 3> NearestPoint::To(const std::array<double, 3>& place) const {
+  const auto i = static_cast<std::size_t>(FindNearestPoint(
+      axes_[0].data(), axes_[1].data(), axes_[2].data(), static_cast<int>(count_), place));
+  return {axes_[0][i], axes_[1][i], axes_[2][i]};
+}
+
 HWY_EXPORT(FindFarthest);
 int FindFarthestRay(const RayBlock* blocks, int count, const std::array<float, 3>& sight) {
   return HWY_DYNAMIC_DISPATCH(FindFarthest)(blocks, count, sight);

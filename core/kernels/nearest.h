@@ -2,6 +2,8 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
+#include <vector>
 
 namespace mocap::kernels {
 
@@ -12,6 +14,20 @@ inline constexpr int kPointStep = 8;
 /// @return  its index; 0 if all are infinitely far away.
 int FindNearestPoint(const double* x, const double* y, const double* z, int count,
                      const std::array<double, 3>& place);
+
+/// Points in columns, among which the nearest is searched for. Reuses its memory.
+class NearestPoint {
+ public:
+  void Clear() { count_ = 0; }
+  void Add(const std::array<double, 3>& point);
+  bool empty() const { return count_ == 0; }
+  /// The point nearest to a place; the first of several. @pre not empty
+  std::array<double, 3> To(const std::array<double, 3>& place) const;
+
+ private:
+  std::size_t count_ = 0;
+  std::array<std::vector<double>, 3> axes_;
+};
 
 /// Directions of neighbouring rays; zero beyond the last.
 struct RayBlock {

@@ -7,10 +7,10 @@
 
 #include <vector>
 
+#include "core/body/posed_body.h"
 #include "core/evidence/evidence.h"
-#include "core/evidence/protrusion.h"
 #include "core/objective/noise.h"
-#include "core/objective/posed_body.h"
+#include "core/reconstruction/silhouette/protrusion.h"
 
 namespace mocap {
 

@@ -10,6 +10,8 @@ namespace {
 
 // Rays that miss every part by this much show something else, or a lost limb.
 constexpr double kUnexplained_mm = 60;
+// Share of all rays. If this many miss the hull and graze a part, its flesh was carved away.
+constexpr double kCarvedShare = 1.0 / 60, kGrazes_mm = 40;
 // A contact this close to the rest of a body is no evidence for a limb: half of the rays' scale
 // more hardly change its cost.
 constexpr double kTaken_mm = 20;
@@ -26,13 +28,13 @@ void ContactTerm::SetEvidence(const Evidence& evidence, int voxels, int rays, do
   ChooseContacts(evidence, voxels, rays, contacts_);
   moving_.clear();
   rest_mm_.clear();
-  SetContacts();
+  Prepare();
   of_rays_ = kRayNoise.Widened(pose_std_mm).Of(rays_, kIndependentRays);
   of_surface_ = kSurfaceNoise.Widened(pose_std_mm).Of(voxels_, kIndependentVoxels);
 }
 
-void ContactTerm::SetContacts() {
-  matcher_.SetContacts(contacts_);
+void ContactTerm::Prepare() {
+  matcher_.SetSegments(contacts_);
   rays_ = static_cast<int>(std::ranges::count_if(contacts_, &Contact::is_edge));
   voxels_ = static_cast<int>(contacts_.size()) - rays_;
 }
@@ -49,27 +51,27 @@ void ContactTerm::TakeOpen(ContactTerm& whole, const PosedBody& posed, CapsuleSe
   }
   std::optional<ThingPlaces> places;
   if (things.any()) places.emplace(posed.body(), posed.posture(), things);
-  const std::vector<ContactMatch>& matches = whole.matcher_.Match(posed_, kReach_mm);
+  const std::vector<SegmentMatch>& matches = whole.matcher_.Match(posed_, kReach_mm);
   contacts_.clear();
   rest_mm_.clear();
   for (std::size_t i = 0; i < matches.size(); ++i) {
-    const Contact& contact = whole.matcher_.contacts()[i];
+    const Contact& contact = whole.contacts_[i];
     double rest_mm = matches[i].capsule < 0 ? kReach_mm : matches[i].distance.outside_mm;
     if (std::abs(rest_mm) < kTaken_mm) continue;
     if (places && rest_mm > kOfThing_mm && places->At(contact)) rest_mm = kOfThing_mm;
     contacts_.push_back(contact);
     rest_mm_.push_back(rest_mm);
   }
-  SetContacts();
+  Prepare();
   of_rays_ = whole.of_rays_;
   of_surface_ = whole.of_surface_;
 }
 
-const std::vector<ContactMatch>& ContactTerm::Match(const PosedBody& posed) {
-  if (moving_.empty()) return matcher_.Match(posed.capsules(), kReach_mm);
+const std::vector<SegmentMatch>& ContactTerm::Match(const PosedBody& posed) {
   posed_.clear();
   for (const int i : moving_) posed_.push_back(posed.capsules()[i]);
-  return matcher_.Match(posed_, kReach_mm);
+  matches_ = &matcher_.Match(moving_.empty() ? posed.capsules() : posed_, kReach_mm);
+  return *matches_;
 }
 
 double ContactTerm::SavedBy(const Residual& residual) const {
@@ -140,12 +142,17 @@ void ContactTerm::Linearize(const PosedBody& posed, const Things& things, Linear
 }
 
 CapsuleSet ContactTerm::CarvedAway() const {
-  const CapsuleSet carved = matcher_.CarvedAway();
-  if (moving_.empty()) return carved;
-  CapsuleSet capsules = 0;
-  for (std::size_t i = 0; i < moving_.size(); ++i)
-    if (carved >> i & 1) capsules |= CapsuleSet{1} << moving_[i];
-  return capsules;
+  std::array<int, SegmentMatcher::kMostCapsules> grazing{};
+  for (std::size_t i = 0; i < contacts_.size(); ++i) {
+    const SegmentMatch& match = (*matches_)[i];
+    if (contacts_[i].misses_hull && match.capsule >= 0 &&
+        std::abs(match.distance.outside_mm) < kGrazes_mm)
+      ++grazing[moving_.empty() ? match.capsule : moving_[match.capsule]];
+  }
+  CapsuleSet carved = 0;
+  for (std::size_t k = 0; k < grazing.size(); ++k)
+    if (grazing[k] >= std::max(2.0, kCarvedShare * rays_)) carved |= CapsuleSet{1} << k;
+  return carved;
 }
 
 }  // namespace mocap

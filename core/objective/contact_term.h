@@ -7,10 +7,10 @@
 #include <utility>
 #include <vector>
 
+#include "core/body/posed_body.h"
+#include "core/body/segment_matcher.h"
 #include "core/objective/carried_things.h"
-#include "core/objective/contact_matcher.h"
 #include "core/objective/noise.h"
-#include "core/objective/posed_body.h"
 
 namespace mocap {
 
@@ -56,24 +56,27 @@ class ContactTerm {
   void ForEach(const PosedBody& posed, const Visit& visit);
 
   const ResidualNoise& NoiseOf(bool is_ray) const { return is_ray ? of_rays_ : of_surface_; }
-  /// Capsules whose flesh was carved away; refers to the last pose.
+  /// Capsules that several rays graze which miss the hull: their flesh was carved away because a
+  /// camera did not see it. Refers to the last pose.
   CapsuleSet CarvedAway() const;
   /// Those of the evidence that are looked at.
-  const std::vector<Contact>& contacts() const { return matcher_.contacts(); }
+  const std::vector<Contact>& contacts() const { return contacts_; }
 
  private:
-  void SetContacts();
+  // To be called when the contacts have changed.
+  void Prepare();
   // How much less a contact costs if it is a thing's [nats].
   double SavedBy(const Residual& residual) const;
   // Matches the contacts with the capsules that move.
-  const std::vector<ContactMatch>& Match(const PosedBody& posed);
+  const std::vector<SegmentMatch>& Match(const PosedBody& posed);
 
-  ContactMatcher matcher_;
+  std::vector<Contact> contacts_;
+  SegmentMatcher matcher_;
+  const std::vector<SegmentMatch>* matches_ = nullptr;  ///< Of the last pose.
   ResidualNoise of_rays_, of_surface_;
   int rays_ = 0, voxels_ = 0;
   std::vector<int> moving_;      ///< Capsules; empty: all.
   std::vector<double> rest_mm_;  ///< Distance of each contact from the rest of the body, likewise.
-  std::vector<Contact> contacts_;
   std::vector<PosedCapsule> posed_;
   std::vector<std::pair<Thing, Residual>> of_things_;
 };
@@ -81,10 +84,10 @@ class ContactTerm {
 template <typename Visit>
 void ContactTerm::ForEach(const PosedBody& posed, const Visit& visit) {
   Residual residual;
-  const std::vector<ContactMatch>& matches = Match(posed);
+  const std::vector<SegmentMatch>& matches = Match(posed);
   for (std::size_t i = 0; i < matches.size(); ++i) {
-    const ContactMatch& match = matches[i];
-    residual.is_ray = matcher_.contacts()[i].is_edge;
+    const SegmentMatch& match = matches[i];
+    residual.is_ray = contacts_[i].is_edge;
     residual.capsule = -1;
     residual.outside_mm = rest_mm_.empty() ? kReach_mm : rest_mm_[i];
     if (match.capsule >= 0 && std::abs(match.distance.outside_mm) < std::abs(residual.outside_mm)) {
@@ -97,7 +100,7 @@ void ContactTerm::ForEach(const PosedBody& posed, const Visit& visit) {
       residual.normal_W =
           offset / length - LeanOf(posed.capsules()[residual.capsule], residual.share);
     }
-    visit(residual, matcher_.contacts()[i]);
+    visit(residual, contacts_[i]);
   }
 }
 

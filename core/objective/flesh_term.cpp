@@ -12,15 +12,19 @@ constexpr double kLeastWhole = 0.1;
 void FleshTerm::SetEvidence(const Evidence& evidence, std::span<const Contact> contacts,
                             double pose_std_mm) {
   cloud_ = &evidence.cloud;
-  surface_W_.Set(contacts);
+  surface_W_.Clear();
+  for (const Contact& contact : contacts)
+    if (!contact.is_edge)
+      surface_W_.Add({contact.from_W.x(), contact.from_W.y(), contact.from_W.z()});
   // A hull with holes says less.
   noise_ = kFleshNoise.Widened(pose_std_mm);
   noise_.alike /= std::max(kLeastWhole, 1 - evidence.MissingShare());
 }
 
 std::optional<Vector3> FleshTerm::WayToFlesh(const Vector3& p_W) const {
-  if (surface_W_.size() == 0 || cloud_->IsFlesh(p_W)) return std::nullopt;
-  return surface_W_.NearestTo(p_W) - p_W;
+  if (surface_W_.empty() || cloud_->IsFlesh(p_W)) return std::nullopt;
+  const std::array<double, 3> nearest_W = surface_W_.To({p_W.x(), p_W.y(), p_W.z()});
+  return Eigen::Map<const Vector3>(nearest_W.data()) - p_W;
 }
 
 template <typename Visit>

@@ -4,10 +4,10 @@
 #include <optional>
 #include <span>
 
-#include "core/evidence/evidence.h"
+#include "core/body/posed_body.h"
+#include "core/evidence/contact.h"
+#include "core/kernels/nearest.h"
 #include "core/objective/noise.h"
-#include "core/objective/place_columns.h"
-#include "core/objective/posed_body.h"
 
 namespace mocap {
 
@@ -32,7 +32,7 @@ class FleshTerm {
   void ForEach(const PosedBody& posed, CapsuleSet capsules, const Visit& visit) const;
 
   const VoxelCloud* cloud_ = nullptr;
-  PlaceColumns surface_W_;
+  kernels::NearestPoint surface_W_;
   ResidualNoise noise_ = kFleshNoise;
 };
 

@@ -17,17 +17,16 @@ namespace mocap {
 enum class Term { kRays, kSurface, kBorders, kFlesh, kOverlap, kThings, kJoints, kHabits };
 inline constexpr std::array<std::string_view, 8> kTermNames = {
     "rays", "surface", "borders", "flesh", "overlap", "things", "joints", "habits"};
-inline constexpr int kTermCount = static_cast<int>(kTermNames.size());
 
 /// -log p of a body at a pose.
 struct Fitness {
-  std::array<double, kTermCount> nats{};
+  std::array<double, kTermNames.size()> nats{};
   Things things;                 ///< Those that the evidence shows.
   double unexplained_share = 0;  ///< Of the rays: no part is near.
   double surface_mm = 0;         ///< Mean distance of the voxels' surface.
   double misfit = 0;             ///< 0 to 1; see ContactNats.
 
-  /// How far the trunk is turned against the heading: 0 to 1, the opposite way.
+  /// How far the trunk is turned against the feet: 0 to 1, the opposite way.
   double backwards = 0;
 
   /// Whether this may be a person who was just found; whether a tracked one is lost.
@@ -60,13 +59,22 @@ struct ObjectiveOptions {
   double pose_std_mm = 0;  ///< How far the poses may be off that are compared.
 };
 
+/// What is compared with a frame: a body, or some of its capsules.
+struct ComparedBody {
+  PosedBody posed;
+  ContactTerm contacts;                 ///< Those that are looked at.
+  CapsuleSet moving = ~CapsuleSet{0};   ///< Capsules that are compared.
+  CapsuleSet present = ~CapsuleSet{0};  ///< Those that they may run into.
+};
+
 /// -log p of bodies at poses. Filter, searches and comparisons all use it. Reuses its memory.
 class Objective {
  public:
   explicit Objective(const ObjectiveOptions& options = {}) : options_(options) {}
 
   /// Sets a frame; `evidence` is borrowed until the next call.
-  void SetEvidence(const Evidence& evidence, const Heading& heading);
+  void SetEvidence(const Evidence& evidence);
+  const Evidence& evidence() const { return *evidence_; }
 
   /// @param things  what the body may wear or carry.
   Fitness At(const BodyModel& body, const PoseState& pose, const Things& things);
@@ -74,27 +82,30 @@ class Objective {
   void Linearize(const BodyModel& body, const PoseState& pose, const Things& things,
                  UpdateEquations& equations);
 
+  /// The same for a part of a body.
+  Fitness At(ComparedBody& part, const Things& things);
+  void Linearize(ComparedBody& part, const Things& things, UpdateEquations& equations);
+
   /// Returns the residuals of contacts and borders at a pose, without those that no part is near;
   /// valid until the next call.
   const std::vector<SurfaceResidual>& ResidualsAt(const BodyModel& body, const PoseState& pose);
 
-  ContactTerm& contacts() { return contacts_; }
+  ContactTerm& contacts() { return whole_.contacts; }
   const BorderTerm& borders() const { return borders_; }
   const FleshTerm& flesh() const { return flesh_; }
   /// Evaluations so far, as multiples of one with all contacts.
   double evaluations() const { return evaluations_; }
-  /// Counts an evaluation elsewhere that looked at so many contacts.
-  void Count(int contacts);
   /// Counts all evaluations of another objective.
   void CountAll(const Objective& other) { evaluations_ += other.evaluations_; }
 
  private:
+  void Count(const ContactTerm& contacts);
+
   ObjectiveOptions options_;
-  Heading heading_;
-  ContactTerm contacts_;
+  const Evidence* evidence_ = nullptr;
   BorderTerm borders_;
   FleshTerm flesh_;
-  PosedBody posed_;
+  ComparedBody whole_;
   ChainEquations chain_;
   std::vector<SurfaceResidual> residuals_;
   double evaluations_ = 0;

@@ -3,10 +3,9 @@
 namespace mocap {
 namespace {
 
-// Flesh yields, capsules are rounder than parts, and limbs sink deeper into a stout person. As
-// shares of the limb's and the other part's radius.
+// Flesh yields, capsules are rounder than parts, and limbs sink deeper into a stout person. As a
+// share of the limb's and the other part's radius.
 constexpr double kHolds = 0.5;
-constexpr double kGivesWay = 0.5;
 
 bool IsLowerArm(BodyPart part) {
   return part == BodyPart::kLowerArmL || part == BodyPart::kLowerArmR;
@@ -56,7 +55,7 @@ bool MayOverlap(BodyPart limb, BodyPart other) {
 double OverlapDepth(const PosedCapsule& limb, const PosedCapsule& other,
                     const PosedCapsule::Distance& to_other) {
   const double outside_mm = to_other.outside_mm + other.ClothAt(to_other.share);
-  return kHolds * RadiusAt(limb, 0) - kGivesWay * RadiusAt(other, to_other.share) - outside_mm;
+  return kHolds * (RadiusAt(limb, 0) - RadiusAt(other, to_other.share)) - outside_mm;
 }
 
 double OverlapTerm::At(const PosedBody& posed, CapsuleSet limbs, CapsuleSet present) const {
@@ -80,7 +79,7 @@ void OverlapTerm::Linearize(const PosedBody& posed, CapsuleSet limbs, CapsuleSet
         if (offset.norm() < 1) return;
         // The other part is thinner where the place slides along a taper.
         const Vector3 out_W =
-            offset.normalized() - kGivesWay * LeanOf(posed.capsules()[j], distance.share);
+            offset.normalized() - kHolds * LeanOf(posed.capsules()[j], distance.share);
         body.DirectionalJacobian(posed.posture(), posed.CarrierOf(i), p_W, out_W, J_limb);
         body.DirectionalJacobian(posed.posture(), posed.CarrierOf(j), p_W, out_W, J_other);
         sums.equations.Add(J_limb - J_other, depth_mm, kOverlapNoise.VarianceAt(depth_mm));

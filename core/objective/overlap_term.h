@@ -1,8 +1,8 @@
 // Limbs do not run into other parts.
 #pragma once
 
+#include "core/body/posed_body.h"
 #include "core/objective/noise.h"
-#include "core/objective/posed_body.h"
 
 namespace mocap {
 

@@ -13,21 +13,12 @@ struct HabitCosts {
   double limit_std_rad = 0.01;     // Of angles beyond a joint's limits.
   double upside_down_nats = 6.9;   // One pose in a thousand: an estimate.
   double against_feet_nats = 4.8;  // Of 121 pairs of feet, one pointed backwards (decision 0121).
-  double against_way_nats = 3.9;   // One in fifty of those who walk goes backwards: an estimate.
   // Men are 1756 mm tall with a standard deviation of 67 (Gordon et al. 1989), and taller in a
   // hull, by hair and shoes. Whoever sits would otherwise be taken for a giant in the chair. Women
   // and children are shorter: nobody costs more for that.
   double tall_mm = 1800, tall_std_mm = 80;
 };
 constexpr HabitCosts kHabits{};
-
-// 0: upright and facing a direction, or not upright; 1: the opposite way.
-double ShareAgainst(const PoseState& pose, const Vector3& ahead_W) {
-  const Vector2 faces = pose.X_WT.R.col(0).head<2>(), ahead = ahead_W.head<2>();
-  if (faces.norm() == 0 || ahead.norm() == 0) return 0;
-  const double upright = std::max(0.0, pose.X_WT.R(2, 2));
-  return upright * (1 - faces.normalized().dot(ahead.normalized())) / 2;
-}
 
 }  // namespace
 
@@ -60,19 +51,20 @@ void LinearizeJoints(const BodyTable& table, const PoseState& pose, UpdateEquati
   }
 }
 
-double ShareBackwards(const PoseState& pose, const Heading& heading) {
-  const auto& ahead_W = heading.toes_W ? heading.toes_W : heading.walks_W;
-  return ahead_W ? ShareAgainst(pose, *ahead_W) : 0;
+double ShareBackwards(const PoseState& pose, const std::optional<Vector3>& toes_W) {
+  const Vector2 faces = pose.X_WT.R.col(0).head<2>();
+  if (!toes_W || faces.norm() == 0) return 0;
+  const double upright = std::max(0.0, pose.X_WT.R(2, 2));
+  return upright * (1 - faces.normalized().dot(toes_W->head<2>().normalized())) / 2;
 }
 
-double HabitNats(const BodyModel& body, const PoseState& pose, const Heading& heading) {
+double HabitNats(const BodyModel& body, const PoseState& pose,
+                 const std::optional<Vector3>& toes_W) {
   const double upside_down = (1 - pose.X_WT.R(2, 2)) / 2;
   const double taller =
       std::max(0.0, body.sizes().Stature() - kHabits.tall_mm) / kHabits.tall_std_mm;
-  double nats = kHabits.upside_down_nats * upside_down * upside_down + taller * taller / 2;
-  if (heading.toes_W) nats += kHabits.against_feet_nats * ShareAgainst(pose, *heading.toes_W);
-  if (heading.walks_W) nats += kHabits.against_way_nats * ShareAgainst(pose, *heading.walks_W);
-  return nats;
+  return kHabits.upside_down_nats * upside_down * upside_down + taller * taller / 2 +
+         kHabits.against_feet_nats * ShareBackwards(pose, toes_W);
 }
 
 }  // namespace mocap

@@ -1,9 +1,10 @@
 // Which poses and bodies are likely before the evidence is looked at.
 #pragma once
 
+#include <optional>
+
 #include "core/body/body_model.h"
 #include "core/body/update_equations.h"
-#include "core/evidence/heading.h"
 
 namespace mocap {
 
@@ -13,12 +14,13 @@ double JointNats(const BodyTable& table, const JointAngles& theta);
 /// rest of the chain takes up the difference.
 void LinearizeJoints(const BodyTable& table, const PoseState& pose, UpdateEquations& equations);
 
-/// How far an upright trunk is turned against the heading, by feet or else by the way: 0 to 1, the
-/// opposite way. 0 if the heading is not known.
-double ShareBackwards(const PoseState& pose, const Heading& heading);
+/// How far an upright trunk is turned against the feet: 0 to 1, the opposite way.
+/// @param toes_W  where the feet point; empty: they show no direction, and the share is 0.
+double ShareBackwards(const PoseState& pose, const std::optional<Vector3>& toes_W);
 
 /// -log p of the trunk's orientation and of the body's stature: few people are upside down, turned
-/// against their feet, walk backwards, or are very tall.
-double HabitNats(const BodyModel& body, const PoseState& pose, const Heading& heading);
+/// against their feet, or very tall.
+double HabitNats(const BodyModel& body, const PoseState& pose,
+                 const std::optional<Vector3>& toes_W);
 
 }  // namespace mocap

@@ -1,6 +1,7 @@
 #include "core/proposals/limb_objective.h"
 
 #include <algorithm>
+#include <bit>
 
 #include "core/hypotheses/pose_filter.h"
 
@@ -38,37 +39,20 @@ void LimbObjective::Begin(Objective& whole, const BodyModel& body, const PoseSta
   whole_ = &whole;
   ListRows(body.table(), limb_end, rows_);
   ListRows(body.table(), absent, absent_rows_);
-  posed_.Set(body, pose);
-  moving_ = CapsulesOf(body, rows_);
-  present_ = moving_ | ~CapsulesOf(body, absent_rows_);
-  open_.TakeOpen(whole.contacts(), posed_, moving_, ~present_, things);
+  limb_.posed.Set(body, pose);
+  limb_.moving = CapsulesOf(body, rows_);
+  limb_.present = limb_.moving | ~CapsulesOf(body, absent_rows_);
+  limb_.contacts.TakeOpen(whole.contacts(), limb_.posed, limb_.moving, ~limb_.present, things);
 }
 
 double LimbObjective::At(const PoseState& pose) {
-  whole_->Count(static_cast<int>(open_.contacts().size()));
-  posed_.Move(pose, rows_);
-  const ContactNats contacts = open_.At(posed_, {});
-  return contacts.rays + contacts.surface + whole_->borders().At(posed_, moving_) +
-         whole_->flesh().At(posed_, moving_ & ~open_.CarvedAway()) +
-         OverlapTerm{}.At(posed_, moving_, present_) + JointNats(posed_.body().table(), pose.theta);
+  limb_.posed.Move(pose, rows_);
+  return whole_->At(limb_, {}).Sum();
 }
 
 double LimbObjective::FleshAt(const PoseState& pose) {
-  posed_.Move(pose, rows_);
-  return whole_->flesh().At(posed_, moving_);
-}
-
-void LimbObjective::Linearize(const PoseState& pose, UpdateEquations& equations) {
-  whole_->Count(static_cast<int>(open_.contacts().size()));
-  posed_.Move(pose, rows_);
-  chain_.Reset(posed_.body().table(), posed_.posture());
-  Linearisation sums{chain_, equations};
-  open_.Linearize(posed_, {}, sums);
-  whole_->borders().Linearize(posed_, moving_, sums);
-  whole_->flesh().Linearize(posed_, moving_ & ~open_.CarvedAway(), sums);
-  chain_.AddTo(equations);
-  OverlapTerm{}.Linearize(posed_, moving_, present_, sums);
-  LinearizeJoints(posed_.body().table(), pose, equations);
+  limb_.posed.Move(pose, rows_);
+  return whole_->flesh().At(limb_.posed, limb_.moving);
 }
 
 void LimbObjective::Refine(PoseState& pose) {
@@ -77,17 +61,18 @@ void LimbObjective::Refine(PoseState& pose) {
   std.head<3>().setConstant(kFreedom.rest_mm);
   for (const int row : rows_) std[kTorsoDof + row] = kFreedom.limb_rad;
   filter.Reset(pose, std);
-  filter.Draw([this](const PoseState& at, UpdateEquations& equations) { Linearize(at, equations); },
-              kFreedom.iterations);
+  filter.Draw(
+      [this](const PoseState& at, UpdateEquations& equations) {
+        limb_.posed.Move(at, rows_);
+        whole_->Linearize(limb_, {}, equations);
+      },
+      kFreedom.iterations);
   for (const int row : rows_) pose.theta[row] = filter.pose().theta[row];
 }
 
 Vector3 LimbObjective::TipAt(const PoseState& pose) {
-  posed_.Move(pose, rows_);
-  int last = 0;
-  for (int i = 0; i < std::ssize(posed_.capsules()); ++i)
-    if (moving_ >> i & 1) last = i;
-  return posed_.capsules()[last].b_W;
+  limb_.posed.Move(pose, rows_);
+  return limb_.posed.capsules()[std::bit_width(limb_.moving) - 1].b_W;
 }
 
 }  // namespace mocap

@@ -33,14 +33,9 @@ class LimbObjective {
   const std::vector<int>& rows() const { return rows_; }
 
  private:
-  void Linearize(const PoseState& pose, UpdateEquations& equations);
-
   Objective* whole_ = nullptr;
   std::vector<int> rows_, absent_rows_;
-  CapsuleSet moving_ = 0, present_ = 0;
-  ContactTerm open_;
-  PosedBody posed_;
-  ChainEquations chain_;
+  ComparedBody limb_;
 };
 
 }  // namespace mocap

@@ -59,13 +59,11 @@ StanceSearch& Scheduler::SearchFor(const std::optional<BodySizes>& known) {
   return *acquainted_;
 }
 
-std::vector<Hypothesis> Scheduler::FindAnybody(const Frame& frame,
+std::vector<Hypothesis> Scheduler::FindAnybody(Objective& objective,
                                                const std::optional<BodySizes>& known,
                                                const SearchScope& scope) {
-  Objective& objective = frame.objective;
   StanceSearch& search = SearchFor(known);
-  const std::vector<StanceCandidate>& candidates =
-      search.Find(frame.evidence, frame.heading, scope, objective);
+  const std::vector<StanceCandidate>& candidates = search.Find(objective, scope);
   const std::size_t finalists =
       std::min(candidates.size(), scope.effort < 1 ? kBudget.few_finalists : kBudget.finalists);
   std::vector<Hypothesis> found;
@@ -105,12 +103,12 @@ bool Scheduler::TryNewcomer(Objective& objective, HypothesisSet& hypotheses) {
   return true;
 }
 
-void Scheduler::TryStances(const Frame& frame, HypothesisSet& hypotheses, bool sizes_are_known,
+void Scheduler::TryStances(Objective& objective, HypothesisSet& hypotheses, bool sizes_are_known,
                            double dt_s) {
   const Hypothesis believed = hypotheses.best();
   const std::optional<BodySizes> known =
       sizes_are_known ? std::optional(believed.body.sizes()) : std::nullopt;
-  for (Hypothesis& found : FindAnybody(frame, known, {EffortWithin(dt_s), believed.things})) {
+  for (Hypothesis& found : FindAnybody(objective, known, {EffortWithin(dt_s), believed.things})) {
     if (sizes_are_known) found.sizes = believed.sizes;
     const Hypothesis& best = hypotheses.best();
     found.nats = best.nats + hypotheses.frame_worth() * (found.fitness.Sum() - best.fitness.Sum());
@@ -118,27 +116,27 @@ void Scheduler::TryStances(const Frame& frame, HypothesisSet& hypotheses, bool s
   }
 }
 
-void Scheduler::Try(const Frame& frame, HypothesisSet& hypotheses, bool sizes_are_known,
+void Scheduler::Try(Objective& objective, HypothesisSet& hypotheses, bool sizes_are_known,
                     double dt_s) {
-  Objective& objective = frame.objective;
   rest_s_ -= dt_s;
   allowance_ = std::min(allowance_ + kBudget.per_s * dt_s, kBudget.most_saved);
   while (allowance_ > 0) {
     const double before = objective.evaluations();
-    if (!TryNewcomer(objective, hypotheses) && !GoOn(frame, hypotheses, sizes_are_known, dt_s))
+    if (!TryNewcomer(objective, hypotheses) && !GoOn(objective, hypotheses, sizes_are_known, dt_s))
       return;
     allowance_ -= objective.evaluations() - before;
   }
 }
 
-bool Scheduler::GoOn(const Frame& frame, HypothesisSet& hypotheses, bool sizes_are_known,
+bool Scheduler::GoOn(Objective& objective, HypothesisSet& hypotheses, bool sizes_are_known,
                      double dt_s) {
   const Fitness fitness = hypotheses.best().fitness;
   if (rest_s_ > 0 && !IsClearlyMore(fitness.unexplained_share, vain_share_)) return false;
   const bool is_doubtful = fitness.misfit > kBudget.doubtful_misfit || fitness.backwards > 0.5;
   if (next_ < kWholeStances && !IsExplained(fitness))
-    TryLimbs(next_, frame.objective, hypotheses.best(), hypotheses);
-  if (next_ == kWholeStances && is_doubtful) TryStances(frame, hypotheses, sizes_are_known, dt_s);
+    TryLimbs(next_, objective, hypotheses.best(), hypotheses);
+  if (next_ == kWholeStances && is_doubtful)
+    TryStances(objective, hypotheses, sizes_are_known, dt_s);
   if (next_++ < kWholeStances) return true;
   next_ = 0;
   const bool was_in_vain = hypotheses.changes() == changes_before_;

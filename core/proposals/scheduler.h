@@ -31,21 +31,15 @@ class Scheduler {
   /// Begins with somebody who was found.
   void BeginRounds();
 
-  /// What a frame shows. Borrowed.
-  struct Frame {
-    Objective& objective;
-    const Evidence& evidence;
-    const Heading& heading;
-  };
   /// Finds hypotheses about whoever is there.
   /// @param known   sizes to keep; empty: they are measured.
   /// @param scope   what the search covers.
-  std::vector<Hypothesis> FindAnybody(const Frame& frame, const std::optional<BodySizes>& known,
+  std::vector<Hypothesis> FindAnybody(Objective& objective, const std::optional<BodySizes>& known,
                                       const SearchScope& scope);
   /// Proposes poses for a frame, where the believed hypothesis is in doubt.
   /// @param sizes_are_known  whether other sizes need not be tried.
   /// @param dt_s             time since the frame before.
-  void Try(const Frame& frame, HypothesisSet& hypotheses, bool sizes_are_known, double dt_s);
+  void Try(Objective& objective, HypothesisSet& hypotheses, bool sizes_are_known, double dt_s);
 
  private:
   StanceSearch& SearchFor(const std::optional<BodySizes>& known);
@@ -55,8 +49,9 @@ class Scheduler {
   // Tries a limb of a hypothesis that is on trial; false: there is none.
   bool TryNewcomer(Objective& objective, HypothesisSet& hypotheses);
   // Goes on with the present round; false: it rests.
-  bool GoOn(const Frame& frame, HypothesisSet& hypotheses, bool sizes_are_known, double dt_s);
-  void TryStances(const Frame& frame, HypothesisSet& hypotheses, bool sizes_are_known, double dt_s);
+  bool GoOn(Objective& objective, HypothesisSet& hypotheses, bool sizes_are_known, double dt_s);
+  void TryStances(Objective& objective, HypothesisSet& hypotheses, bool sizes_are_known,
+                  double dt_s);
 
   BodyTable table_;
   StanceSearch strangers_;
@@ -64,7 +59,6 @@ class Scheduler {
   LimbProposals limbs_;
   std::vector<PoseState> poses_;
   std::optional<Hypothesis> varied_;  ///< Only to reuse its memory.
-  bool is_new_ = true;                ///< This is the first round.
   std::size_t next_ = 0;              ///< Limb; pair after the limbs; stances at the end.
   double allowance_ = 0;              ///< Evaluations that may be spent.
   double rest_s_ = 0;                 ///< Until the next round,

@@ -85,23 +85,21 @@ StanceSearch::StanceSearch(std::vector<BodyModel> bodies, int builds)
   for (const BodyModel& body : bodies_) libraries_.emplace_back(body);
 }
 
-const std::vector<StanceCandidate>& StanceSearch::Find(const Evidence& evidence,
-                                                       const Heading& heading,
-                                                       const SearchScope& scope, Objective& frame) {
+const std::vector<StanceCandidate>& StanceSearch::Find(Objective& frame, const SearchScope& scope) {
   // Most poses are far off, and few samples show that. The first round only weighs them.
   constexpr std::array kRounds = {Round{40, 80, kSearch.pose_std_mm, {0, 0}, 160},
                                   Round{40, 80, kSearch.pose_std_mm / 2, {2, 4}, 48},
                                   Round{80, 120, kSearch.pose_std_mm / 4, {3, 6}, 12}};
   constexpr Round kFinal{150, 200, 0, {4, 15}, 20};
   const std::vector<StanceCandidate> best_before = std::exchange(candidates_, {});
-  Propose(evidence.cloud);
-  for (const Round& round : kRounds) Play(evidence, heading, round, scope, frame);
+  Propose(frame.evidence().cloud);
+  for (const Round& round : kRounds) Play(round, scope, frame);
   candidates_.insert(candidates_.end(), best_before.begin(), best_before.end());
-  Play(evidence, heading, kFinal, {1, scope.things}, frame);
+  Play(kFinal, {1, scope.things}, frame);
   KeepDistinct();
   for (int i = 0; i < kSearch.neighbourhoods && bodies_.size() > 1; ++i) {
     ProposeNeighbours();
-    Play(evidence, heading, kFinal, {1, scope.things}, frame);
+    Play(kFinal, {1, scope.things}, frame);
     KeepDistinct();
   }
   return candidates_;
@@ -149,10 +147,10 @@ void StanceSearch::ProposeNeighbours() {
   }
 }
 
-void StanceSearch::Play(const Evidence& evidence, const Heading& heading, const Round& round,
-                        const SearchScope& scope, Objective& frame) {
+void StanceSearch::Play(const Round& round, const SearchScope& scope, Objective& frame) {
+  const Evidence& evidence = frame.evidence();
   Objective objective({round.voxels, round.rays, round.pose_std_mm});
-  objective.SetEvidence(evidence, heading);
+  objective.SetEvidence(evidence);
   const Things things = evidence.MissingShare() < kSearch.missing_share ? scope.things : Things{};
   for (StanceCandidate& candidate : candidates_) {
     const BodyModel& body = bodies_[candidate.body];

@@ -34,10 +34,9 @@ class StanceSearch {
 
   const BodyModel& body(int index) const { return bodies_[index]; }
 
-  /// Processes a frame. Its evaluations are counted by `frame`.
+  /// Searches in the evidence of a frame; `frame` counts the evaluations.
   /// @return  the best distinct poses, the best first; valid until the next call.
-  const std::vector<StanceCandidate>& Find(const Evidence& evidence, const Heading& heading,
-                                           const SearchScope& scope, Objective& frame);
+  const std::vector<StanceCandidate>& Find(Objective& frame, const SearchScope& scope);
 
   /// Adds a pose to the best of the previous frame.
   void Remember(const BodySizes& sizes, const PoseState& pose);
@@ -52,8 +51,7 @@ class StanceSearch {
   void Propose(const VoxelCloud& cloud);
   void ProposeNeighbours();
   // Fits all poses to the evidence and keeps the best.
-  void Play(const Evidence& evidence, const Heading& heading, const Round& round,
-            const SearchScope& scope, Objective& frame);
+  void Play(const Round& round, const SearchScope& scope, Objective& frame);
   void KeepDistinct();
 
   std::vector<BodyModel> bodies_;

@@ -36,7 +36,7 @@ class FittedBody : public ::testing::Test {
   void See(const PoseState& truth) { See(body_, truth); }
   void See(Evidence evidence) {
     evidence_ = std::move(evidence);
-    objective_.SetEvidence(evidence_, heading_);
+    objective_.SetEvidence(evidence_);
   }
 
   Fitness At(const PoseState& pose) { return objective_.At(body_, pose, {}); }
@@ -67,7 +67,6 @@ class FittedBody : public ::testing::Test {
   RoundStudio studio_;
   BodyModel body_{LoadBodyTable("full"), AverageSizes(1750)};
   Evidence evidence_;
-  Heading heading_;
   Objective objective_;
 };
 

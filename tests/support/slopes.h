@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "core/objective/posed_body.h"
+#include "core/body/posed_body.h"
 
 namespace mocap {
 

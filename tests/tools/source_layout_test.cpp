@@ -32,7 +32,7 @@ const std::map<std::string, std::map<std::string, std::set<std::string>>> kInner
       {"reconstruction", {"kernels"}},
       {"calibration", {"reconstruction"}},
       {"evidence", {"body", "kernels", "reconstruction"}},
-      {"objective", {"body", "evidence", "kernels"}},
+      {"objective", {"body", "evidence", "kernels", "reconstruction"}},
       {"hypotheses", {"body", "evidence", "kernels", "objective"}},
       {"proposals", {"body", "evidence", "hypotheses", "objective", "reconstruction"}},
       {"mikic2003", {"body", "reconstruction"}},

@@ -134,8 +134,6 @@ class ResidualKeeper : public PoseSink {
     if (set.result.state != CaptureState::kTracking || set.frame % every_ != 0) return;
     evidence_.Gather(Sighting(set.grid, set.outlines));
     const auto number = static_cast<int>(set.frame / every_);
-    const Heading heading = heading_watch_.Look(
-        evidence_.cloud, (number - std::exchange(last_, number)) * take_.step_s);
     const ScoredPoints points_W = TrueScoredPoints(truth_, set.capture_ns);
     const PoseState pose = TruePoseOf(set.body, set.result.pose, points_W);
     if (AwayFrom(points_W, set.body, pose) > kMostAway_mm) {
@@ -143,9 +141,9 @@ class ResidualKeeper : public PoseSink {
       return;
     }
     ++take_.sets;
-    objective_.SetEvidence(evidence_, heading);
+    objective_.SetEvidence(evidence_);
     KeepResiduals(set.body, pose, number);
-    if (number % kSetsPerOdds == 0) KeepOdds(set, heading, pose, points_W);
+    if (number % kSetsPerOdds == 0) KeepOdds(set, pose, points_W);
   }
 
  private:
@@ -172,11 +170,10 @@ class ResidualKeeper : public PoseSink {
     return {filter.pose(), objective_.At(body, filter.pose(), kAnyThings)};
   }
 
-  void KeepOdds(const TrackedSet& set, const Heading& heading, const PoseState& true_pose,
-                const ScoredPoints& points_W) {
+  void KeepOdds(const TrackedSet& set, const PoseState& true_pose, const ScoredPoints& points_W) {
     StanceSearch search(set.body);
     std::vector<Fitted> all = {FitFrom(set.body, true_pose), FitFrom(set.body, set.result.pose)};
-    for (const StanceCandidate& candidate : search.Find(evidence_, heading, {}, objective_))
+    for (const StanceCandidate& candidate : search.Find(objective_, {}))
       all.push_back(FitFrom(set.body, candidate.pose));
     std::ranges::stable_sort(all, {}, [](const Fitted& one) { return one.fitness.Sum(); });
     OddsFrame frame;
@@ -197,8 +194,6 @@ class ResidualKeeper : public PoseSink {
   const SimulatedTruth truth_;
   const int every_;
   NoiseTake& take_;
-  int last_ = 0;
-  HeadingWatch heading_watch_;
   Evidence evidence_;
   Objective objective_;
 };

@@ -101,8 +101,8 @@ MeasuredOdds FitOdds(std::span<const OddsTake> takes) {
   odds.frames = static_cast<int>(least.size());
   odds.median_lead_nats = MedianOf(least);
   odds.right_share = RightShare(takes, -1);
-  for (int term = 0; term < kTermCount; ++term)
-    odds.right_share_without[static_cast<std::size_t>(term)] = RightShare(takes, term);
+  for (std::size_t term = 0; term < kTermNames.size(); ++term)
+    odds.right_share_without[term] = RightShare(takes, static_cast<int>(term));
   odds.temperature = FitTemperature(fitted);
   odds.others_nats = MeanNatsOfRight(others, odds.temperature);
   odds.own_nats = MeanNatsOfRight(others, FitTemperature(others));

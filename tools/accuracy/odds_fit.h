@@ -12,7 +12,7 @@ namespace mocap {
 
 /// -log p of right and of wrong poses of one person in one frame set, term by term.
 struct OddsFrame {
-  using Nats = std::array<double, kTermCount>;
+  using Nats = std::array<double, kTermNames.size()>;
   std::vector<Nats> right, wrong;  ///< Neither is empty.
 };
 using OddsTake = std::vector<OddsFrame>;
@@ -34,7 +34,7 @@ struct MeasuredOdds {
     double predicted = 0, right_share = 0;  ///< Mean probability; share where that pose is right.
   };
   std::array<Bin, 2> bins = {{{0.5, 0.9}, {0.9, 1}}};
-  std::array<double, kTermCount> right_share_without{};  ///< If a term is left out.
+  std::array<double, kTermNames.size()> right_share_without{};  ///< If a term is left out.
 };
 
 /// Measures the odds. T is fitted to the takes at even places; the others check.

@@ -5,6 +5,7 @@
 
 #include "core/errors.h"
 #include "core/kernels/distortions.h"
+#include "core/kernels/prefetch.h"
 #include "core/kernels/windows.h"
 
 namespace mocap {

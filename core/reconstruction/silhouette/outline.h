@@ -4,9 +4,9 @@
 
 #include <vector>
 
+#include "core/kernels/spread_choice.h"
 #include "core/reconstruction/camera/camera_model.h"
 #include "core/reconstruction/silhouette/trimap.h"
-#include "core/spread_choice.h"
 
 namespace mocap {
 

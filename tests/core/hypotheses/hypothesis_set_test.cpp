@@ -12,12 +12,12 @@
 namespace mocap {
 namespace {
 
-// Nothing is seen of anybody, but the way that somebody walks: habits alone tell poses apart, and
+// Nothing is seen of anybody, but where the feet point: habits alone tell poses apart, and
 // how much is known exactly.
 class Odds : public FittedBody {
  protected:
   Odds() {
-    blind_.SetEvidence(evidence_, {});
+    blind_.SetEvidence(evidence_);
     believed_.filter.Reset(ahead_, 20, 0.1);
   }
 
@@ -40,11 +40,11 @@ class Odds : public FittedBody {
     return std::abs(set.best().filter.pose().X_WT.p.x() - kX_mm - mm) < 1e-9;
   }
 
-  /// How long it takes until somebody is turned who faces away from the way, if frames come so
+  /// How long it takes until somebody is turned who faces away from the feet, if frames come so
   /// often and the other facing is less probable at first.
   double TurnedAfter(double period_s, double behind_nats) {
-    heading_.walks_W = ExpRotation(Vector3(0, 0, 1.2)) * ahead_.X_WT.R.col(0);
-    blind_.SetEvidence(evidence_, heading_);
+    evidence_.toes_W = ExpRotation(Vector3(0, 0, 1.2)) * ahead_.X_WT.R.col(0);
+    blind_.SetEvidence(evidence_);
     PoseState turned = ahead_;
     turned.X_WT.R = turned.X_WT.R * ExpRotation(Vector3(0, 0, EIGEN_PI));
     Hypothesis right(body_, ahead_, false), wrong(body_, turned, false);
@@ -54,7 +54,7 @@ class Odds : public FittedBody {
     set.Offer(right);
     double time_s = 0;
     while (set.best().filter.pose().X_WT.R.col(0).dot(ahead_.X_WT.R.col(0)) < 0 && time_s < 20) {
-      set.Follow(blind_, evidence_.cloud, period_s);
+      set.Follow(blind_, period_s);
       time_s += period_s;
     }
     return time_s;
@@ -110,9 +110,9 @@ TEST_F(Odds, NameTheLikeliestOfTheOthers) {
 
 TEST_F(Odds, StayFiniteHoweverLongSomebodyIsFollowed) {
   HypothesisSet set = SetWith({Aside(500, 1)});
-  heading_.walks_W = -ahead_.X_WT.R.col(0);
-  blind_.SetEvidence(evidence_, heading_);
-  for (int i = 0; i < 200; ++i) set.Follow(blind_, evidence_.cloud, 1);
+  evidence_.toes_W = -ahead_.X_WT.R.col(0);
+  blind_.SetEvidence(evidence_);
+  for (int i = 0; i < 200; ++i) set.Follow(blind_, 1);
   EXPECT_EQ(set.best().nats, 0);
   EXPECT_NEAR(set.ProbabilityOf(set.best()), 1 / (1 + std::exp(-1)), 0.01)
       << "they explain the same";
@@ -120,7 +120,7 @@ TEST_F(Odds, StayFiniteHoweverLongSomebodyIsFollowed) {
 
 TEST_F(Odds, ThatStayEvenChangeNoMind) {
   HypothesisSet set = SetWith({Aside(500, -1)});
-  for (int i = 0; i < 60; ++i) set.Follow(blind_, evidence_.cloud, 1.0 / 30);
+  for (int i = 0; i < 60; ++i) set.Follow(blind_, 1.0 / 30);
   ASSERT_EQ(set.all().size(), 2u);
   EXPECT_TRUE(IsAside(set, 0)) << "the other is likelier, but not by enough";
   EXPECT_LT(set.ProbabilityOf(set.best()), 0.5) << "which is not hidden";
@@ -168,18 +168,18 @@ TEST_F(Odds, TwoOfOnePoseThatIsNotBelievedBecomeOneToo) {
 }
 
 TEST_F(Odds, AgainstAPoseStayWhenItIsProposedAgain) {
-  heading_.walks_W = ahead_.X_WT.R.col(0);
-  blind_.SetEvidence(evidence_, heading_);
+  evidence_.toes_W = ahead_.X_WT.R.col(0);
+  blind_.SetEvidence(evidence_);
   PoseState turned = ahead_;
   turned.X_WT.R = turned.X_WT.R * ExpRotation(Vector3(0, 0, EIGEN_PI));
   Hypothesis ahead(body_, ahead_, false);
   ahead.Fit(blind_);
   HypothesisSet set;
   set.Begin({ahead});
-  set.Follow(blind_, evidence_.cloud, 0.01);
+  set.Follow(blind_, 0.01);
   Hypothesis present = set.best();
   set.Vary(blind_, present, turned);
-  for (int i = 0; i < 9; ++i) set.Follow(blind_, evidence_.cloud, 0.01);
+  for (int i = 0; i < 9; ++i) set.Follow(blind_, 0.01);
   ASSERT_EQ(set.all().size(), 2u);
   const double probability = set.ProbabilityOf(set.best());
   present = set.best();
@@ -202,15 +202,15 @@ TEST_F(Odds, TakeLongerWhereMoreSpeaksAgainst) {
 }
 
 TEST_F(Odds, OfOneFrameAfterAGapCountAsOneFrame) {
-  heading_.walks_W = -ahead_.X_WT.R.col(0);
+  evidence_.toes_W = -ahead_.X_WT.R.col(0);
   const auto after = [&](double gap_s) {
     PoseState turned = ahead_;
     turned.X_WT.R = turned.X_WT.R * ExpRotation(Vector3(0, 0, EIGEN_PI));
     Hypothesis other(body_, turned, false);
     other.nats = 1;
     HypothesisSet set = SetWith({other});
-    blind_.SetEvidence(evidence_, heading_);
-    set.Follow(blind_, evidence_.cloud, gap_s);
+    blind_.SetEvidence(evidence_);
+    set.Follow(blind_, gap_s);
     EXPECT_LE(set.frame_worth(), 1);
     return set.all()[1].nats;
   };
@@ -218,14 +218,14 @@ TEST_F(Odds, OfOneFrameAfterAGapCountAsOneFrame) {
 }
 
 TEST_F(Odds, DoNotChangeWhileTheClockStandsStill) {
-  heading_.walks_W = -ahead_.X_WT.R.col(0);
-  blind_.SetEvidence(evidence_, heading_);
+  evidence_.toes_W = -ahead_.X_WT.R.col(0);
+  blind_.SetEvidence(evidence_);
   PoseState turned = ahead_;
   turned.X_WT.R = turned.X_WT.R * ExpRotation(Vector3(0, 0, EIGEN_PI));
   Hypothesis other(body_, turned, false);
   other.nats = 1;
   HypothesisSet set = SetWith({other});
-  for (int i = 0; i < 50; ++i) set.Follow(blind_, evidence_.cloud, 0);
+  for (int i = 0; i < 50; ++i) set.Follow(blind_, 0);
   ASSERT_EQ(set.all().size(), 2u);
   EXPECT_NEAR(set.all()[1].nats, 1, 1e-9);
 }
@@ -244,7 +244,7 @@ TEST_F(Odds, OfATrialAreThoseOfThePresentFrame) {
   Hypothesis newcomer = Aside(500, 5);
   newcomer.trials = 1;
   HypothesisSet set = SetWith({newcomer});
-  set.Follow(blind_, evidence_.cloud, 0.1);
+  set.Follow(blind_, 0.1);
   ASSERT_EQ(set.all().size(), 2u);
   EXPECT_NEAR(set.all()[1].nats, set.all()[0].nats, 1e-3) << "they explain the same";
 }
@@ -268,7 +268,7 @@ class Followed : public FittedBody {
     Hypothesis present = set.best();
     set.Vary(objective_, present, pose);
   }
-  void Follow(HypothesisSet& set, double dt_s) { set.Follow(objective_, evidence_.cloud, dt_s); }
+  void Follow(HypothesisSet& set, double dt_s) { set.Follow(objective_, dt_s); }
 
   const PoseState hanging_ = Standing({});
   const PoseState raised_ = Standing({.arm_l = {.raise = 30, .forward = 30, .elbow = 60}});
@@ -326,9 +326,9 @@ TEST_F(Followed, VoxelsThatLeaveABodyThatStandsDoNotTakeItAlong) {
   See(truth);
   HypothesisSet set = Begin(truth);
   Follow(set, 0.1);
-  VoxelCloud far;
-  far.Build(FillGrid({900, 900, 0}, {1500, 1500, 600}, 25, [](const Vector3&) { return true; }));
-  set.Follow(objective_, far, 0.1);
+  evidence_.cloud.Build(
+      FillGrid({900, 900, 0}, {1500, 1500, 600}, 25, [](const Vector3&) { return true; }));
+  Follow(set, 0.1);
   EXPECT_LT(Error(set.best().filter.pose(), truth), 15);
 }
 

@@ -35,7 +35,7 @@ double StatureMeasured(double stature_mm, double build) {
   const RoundStudio studio;
   const Evidence evidence = studio.Show(person, pose);
   Objective objective;
-  objective.SetEvidence(evidence, {});
+  objective.SetEvidence(evidence);
   Hypothesis hypothesis(found, pose, true);
   hypothesis.Fit(objective);
   hypothesis.MeasureSizes(objective);
@@ -65,7 +65,7 @@ TEST(SizeRefiner, MeasuresTheDrapeOfWhoWearsOneAndGivesItToNobodyElse) {
   const Evidence evidence = studio.Show(person, pose);
   const auto measured_by = [&](const BodyModel& body) {
     Objective objective;
-    objective.SetEvidence(evidence, {});
+    objective.SetEvidence(evidence);
     SizeRefiner refiner(body);
     refiner.Add(body, objective, pose);
     return refiner.Sizes();
@@ -90,7 +90,7 @@ TEST(SizeRefiner, SizesApproachTheTruthOverTheFrames) {
         AnglesOf({.arm_l = {.forward = swing}, .leg_l = {.hip = -swing}, .leg_r = {.hip = swing}},
                  truth.table());
     const Evidence evidence = studio.Show(truth, pose);
-    objective.SetEvidence(evidence, {});
+    objective.SetEvidence(evidence);
     hypothesis.Jump(objective, pose);
     hypothesis.RefineSizes(objective);
   }
@@ -121,7 +121,7 @@ TEST(SizeRefiner, ClothCountsLessThanTheLimbWithin) {
     evidence.borders[i] = wide.borders[i];
   BoundingEdgeFinder().Find(wide.cloud, evidence.borders, wide.cloud.box_W(), evidence.edges);
   Objective objective;
-  objective.SetEvidence(evidence, {});
+  objective.SetEvidence(evidence);
   Hypothesis hypothesis(found, pose, true);
   hypothesis.Fit(objective);
   hypothesis.MeasureSizes(objective);

@@ -1,6 +1,10 @@
 #include "core/kernels/nearest.h"
 
+#include <algorithm>
+#include <array>
+#include <cmath>
 #include <limits>
+#include <vector>
 
 #include "core/kernels/nearest_reference.h"
 #include "tests/core/kernels/each_target.h"
@@ -27,6 +31,26 @@ TEST(NearestKernels, TheFirstOfTheNearestPointsIsFound) {
     };
     ExpectSameBits([&] { return found(reference::FindNearestPoint); },
                    [&] { return found(FindNearestPoint); });
+  }
+}
+
+TEST(NearestKernels, PointsMayBeAddedAndForgotten) {
+  NearestPoint points;
+  for (int count = 37; count > 0; count -= 9) {
+    points.Clear();
+    EXPECT_TRUE(points.empty());
+    std::vector<std::array<double, 3>> all;
+    for (int i = 0; i < count; ++i) {
+      all.push_back({100 * std::sin(3.0 * i), 100 * std::cos(5.0 * i), 10.0 * i});
+      points.Add(all.back());
+    }
+    for (int i = 0; i < 50; ++i) {
+      const std::array<double, 3> place{120 * std::cos(7.0 * i), 120 * std::sin(2.0 * i), 8.0 * i};
+      const auto distance = [&](const std::array<double, 3>& point) {
+        return std::hypot(point[0] - place[0], point[1] - place[1], point[2] - place[2]);
+      };
+      EXPECT_EQ(points.To(place), *std::ranges::min_element(all, {}, distance));
+    }
   }
 }
 

@@ -33,7 +33,7 @@ class Carried : public ::testing::Test {
   }
   std::optional<Thing> ThingAt(const PoseState& pose, const Vector3& p_W,
                                Things allowed = kAnyThings) const {
-    const Contact contact{p_W, p_W, Vector3::UnitZ(), false};
+    const Contact contact{{p_W, p_W, Vector3::UnitZ()}, false};
     return ThingPlaces(body_, body_.PostureAt(pose), allowed).At(contact);
   }
   /// The person with more flesh.
@@ -47,7 +47,7 @@ class Carried : public ::testing::Test {
     return evidence;
   }
   Fitness FitnessOf(const Evidence& evidence, const PoseState& pose, const Things& things) {
-    objective_.SetEvidence(evidence, {});
+    objective_.SetEvidence(evidence);
     return objective_.At(body_, pose, things);
   }
   PosedCapsule HatOf(const PoseState& pose) const {
@@ -129,7 +129,7 @@ TEST_F(Carried, WhatIsNotAllowedIsNotSeen) {
 TEST_F(Carried, AHatDoesNotPullTheHead) {
   const PoseState pose = Standing();
   const Evidence evidence = Show(pose, {HatOf(pose)});
-  objective_.SetEvidence(evidence, {});
+  objective_.SetEvidence(evidence);
   const auto head_error_mm = [&](const Things& things) {
     PoseFilter filter{MotionNoise{}};
     filter.Reset(pose, 100, 0.5);
@@ -144,10 +144,10 @@ TEST_F(Carried, WhatAFrameDoesNotShowIsPutDown) {
   Hypothesis hypothesis(body_, pose, false);
   hypothesis.things = kAnyThings;
   const Evidence with = Show(pose, {HatOf(pose)}), without = Show(pose, {});
-  objective_.SetEvidence(with, {});
+  objective_.SetEvidence(with);
   hypothesis.Fit(objective_);
   EXPECT_EQ(hypothesis.things, Only(Thing::kHat));
-  objective_.SetEvidence(without, {});
+  objective_.SetEvidence(without);
   hypothesis.Fit(objective_);
   EXPECT_EQ(hypothesis.things, Things{});
 }

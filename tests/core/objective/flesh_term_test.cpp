@@ -81,23 +81,5 @@ TEST_F(FleshTermTest, IsSilentWhereNoFleshWasSeen) {
   EXPECT_EQ(At(Standing({})), 0);
 }
 
-TEST(Flesh, IsNearestWhereNoOtherPlaceIsNearer) {
-  std::vector<Contact> contacts;
-  for (int i = 0; i < 37; ++i) {
-    const Vector3 place(100 * std::sin(3.0 * i), 100 * std::cos(5.0 * i), 10 * i);
-    contacts.push_back({place, place, Vector3::UnitX(), i % 5 == 0});
-  }
-  PlaceColumns places;
-  places.Set(contacts);
-  EXPECT_EQ(places.size(), 29);
-  for (int i = 0; i < 50; ++i) {
-    const Vector3 p(120 * std::cos(7.0 * i), 120 * std::sin(2.0 * i), 8 * i);
-    double least = std::numeric_limits<double>::infinity();
-    for (const Contact& contact : contacts)
-      if (!contact.is_edge) least = std::min(least, (contact.from_W - p).norm());
-    EXPECT_NEAR((places.NearestTo(p) - p).norm(), least, 1e-9);
-  }
-}
-
 }  // namespace
 }  // namespace mocap

@@ -64,8 +64,8 @@ TEST_F(ObjectiveTest, EachTermCostsMoreWhereOnlyItIsViolated) {
   EXPECT_GT(more(Standing({.leg_l = {.spread = -12}, .leg_r = {.spread = -12}}), Term::kOverlap),
             1);
   EXPECT_GT(more(Standing({.leg_l = {.knee = -20}}), Term::kJoints), 1);
-  heading_.toes_W = -truth.X_WT.R.col(0);
-  objective_.SetEvidence(evidence_, heading_);
+  evidence_.toes_W = -truth.X_WT.R.col(0);
+  objective_.SetEvidence(evidence_);
   EXPECT_GT(more(truth, Term::kHabits), 1);
 }
 
@@ -100,7 +100,7 @@ TEST_F(ObjectiveTest, OfPosesThatMayBeOffIsWider) {
   const PoseState truth = Standing({.arm_l = kArmOut});
   See(truth);
   Objective wide({.pose_std_mm = 60});
-  wide.SetEvidence(evidence_, heading_);
+  wide.SetEvidence(evidence_);
   const PoseState off = Off(truth, 0.5);
   EXPECT_LT(wide.At(body_, off, {}).Sum() - wide.At(body_, truth, {}).Sum(),
             0.5 * (At(off).Sum() - At(truth).Sum()));
@@ -139,7 +139,7 @@ TEST_F(ObjectiveTest, GivesTheSameBitsForTheSameEvidence) {
   See(truth);
   const PoseState pose = Off(truth, 0.5);
   Objective again;
-  again.SetEvidence(evidence_, heading_);
+  again.SetEvidence(evidence_);
   EXPECT_NE(again.At(body_, truth, {}).nats, At(pose).nats);
   EXPECT_EQ(again.At(body_, pose, {}).nats, At(pose).nats);
 }
@@ -152,7 +152,7 @@ TEST_F(ObjectiveTest, CountsItsEvaluationsByTheirExtent) {
   GradientAt(Standing({}));
   EXPECT_DOUBLE_EQ(objective_.evaluations() - before, 2);
   Objective coarse({.voxels = 125, .rays = 300});
-  coarse.SetEvidence(evidence_, heading_);
+  coarse.SetEvidence(evidence_);
   coarse.At(body_, Standing({}), {});
   EXPECT_GT(coarse.evaluations(), 0.5) << "to pose the body costs the same";
   EXPECT_LT(coarse.evaluations(), 0.7);

@@ -32,17 +32,16 @@ class Acquisition : public ::testing::Test {
   /// Looks for whoever is there, and measures for some frames more.
   void Find(const BodyModel& body, const PoseState& truth, int frames) {
     evidence_ = studio_.Show(body, truth);
-    objective_.SetEvidence(evidence_, {});
-    std::vector<Hypothesis> found = scheduler_.FindAnybody(Frame(), std::nullopt, {});
+    objective_.SetEvidence(evidence_);
+    std::vector<Hypothesis> found = scheduler_.FindAnybody(objective_, std::nullopt, {});
     ASSERT_FALSE(found.empty());
     hypotheses_.Begin(std::move(found));
     for (int i = 1; i < frames; ++i) {
-      hypotheses_.Follow(objective_, evidence_.cloud, kFrame_s);
-      scheduler_.Try(Frame(), hypotheses_, false, kFrame_s);
+      hypotheses_.Follow(objective_, kFrame_s);
+      scheduler_.Try(objective_, hypotheses_, false, kFrame_s);
       for (Hypothesis& hypothesis : hypotheses_.all()) hypothesis.RefineSizes(objective_);
     }
   }
-  Scheduler::Frame Frame() { return {objective_, evidence_, heading_}; }
   /// How far the joints are off after some frames of this pose.
   double ErrorAfter(int frames, const PoseState& truth) { return ErrorAfter(frames, truth, body_); }
   double ErrorAfter(int frames, const PoseState& truth, const BodyModel& body) {
@@ -56,7 +55,6 @@ class Acquisition : public ::testing::Test {
   RoundStudio studio_;
   BodyModel body_{LoadBodyTable("full"), AverageSizes(1750)};
   Evidence evidence_;
-  Heading heading_;
   Objective objective_;
   Scheduler scheduler_{body_.table()};
   HypothesisSet hypotheses_;
@@ -125,8 +123,8 @@ TEST_F(Acquisition, FollowsBothFacingsForSomeTimeAtMost) {
   const PoseState truth = Upright(body_.sizes(), {});
   Find(body_, truth, 1);
   for (int i = 0; i < 25; ++i) {
-    hypotheses_.Follow(objective_, evidence_.cloud, 0.1);
-    scheduler_.Try(Frame(), hypotheses_, true, 0.1);
+    hypotheses_.Follow(objective_, 0.1);
+    scheduler_.Try(objective_, hypotheses_, true, 0.1);
   }
   for (const Hypothesis& hypothesis : hypotheses_.all())
     EXPECT_GT(hypothesis.filter.pose().X_WT.R.col(0).dot(truth.X_WT.R.col(0)), 0.9);
@@ -169,10 +167,10 @@ TEST_F(Acquisition, FindsSomebodyWhoLies) {
 
 TEST_F(Acquisition, FindsSomebodyBitByBitWhereThereIsLittleTime) {
   evidence_ = studio_.Show(body_, Upright(body_.sizes(), {}));
-  objective_.SetEvidence(evidence_, {});
+  objective_.SetEvidence(evidence_);
   bool located = false;
   for (int i = 0; i < 5 && !located; ++i) {
-    const auto found = scheduler_.FindAnybody(Frame(), std::nullopt, {0.1});
+    const auto found = scheduler_.FindAnybody(objective_, std::nullopt, {0.1});
     located = !found.empty() && found.front().fitness.IsCredible();
   }
   EXPECT_TRUE(located);
@@ -200,8 +198,8 @@ INSTANTIATE_TEST_SUITE_P(Acquisition, Handstand, ::testing::Values(1150, 1750));
 TEST_F(Acquisition, KeepsTheSizesOfWhoIsKnown) {
   const PoseState truth = Upright(body_.sizes(), {});
   evidence_ = studio_.Show(body_, truth);
-  objective_.SetEvidence(evidence_, {});
-  const auto found = scheduler_.FindAnybody(Frame(), body_.sizes(), {});
+  objective_.SetEvidence(evidence_);
+  const auto found = scheduler_.FindAnybody(objective_, body_.sizes(), {});
   ASSERT_FALSE(found.empty());
   for (const Hypothesis& hypothesis : found) {
     EXPECT_EQ(hypothesis.body.sizes(), body_.sizes());

@@ -21,13 +21,11 @@ class Schedule : public FittedBody {
     set.Begin({believed});
     return set;
   }
-  void Try(HypothesisSet& set, double dt_s) {
-    scheduler_.Try({objective_, evidence_, heading_}, set, true, dt_s);
-  }
+  void Try(HypothesisSet& set, double dt_s) { scheduler_.Try(objective_, set, true, dt_s); }
   /// Follows still evidence. By default as long as it takes to try all that is tried.
   void Follow(HypothesisSet& set, double period_s, double time_s = 1) {
     for (double t_s = 0; t_s < time_s; t_s += period_s) {
-      set.Follow(objective_, evidence_.cloud, period_s);
+      set.Follow(objective_, period_s);
       Try(set, period_s);
     }
   }
@@ -177,8 +175,8 @@ TEST_F(Schedule, WhoHasAHatIsLookedAtAtOnceWhenAnArmIsLostToo) {
 
 TEST_F(Schedule, WhoFacesBackwardsIsTurned) {
   const PoseState truth = Standing({.arm_l = {.forward = 30}, .arm_r = {.forward = 20}});
-  heading_.toes_W = truth.X_WT.R.col(0);
   See(truth);
+  evidence_.toes_W = truth.X_WT.R.col(0);
   HypothesisSet set = Believing(TurnedAbout(truth));
   ASSERT_LT(Facing(set, truth), -0.9);
   Follow(set, kAtTenHz_s, 0.5);
@@ -188,13 +186,12 @@ TEST_F(Schedule, WhoFacesBackwardsIsTurned) {
 
 TEST_F(Schedule, NobodyIsTurnedByOneWrongLookAtTheFeetAfterAGap) {
   const PoseState truth = Standing({.arm_l = {.forward = 30}, .arm_r = {.forward = 20}});
-  heading_.toes_W = truth.X_WT.R.col(0);
   See(truth);
+  evidence_.toes_W = truth.X_WT.R.col(0);
   HypothesisSet set = Believing(truth);
   Follow(set, kAtTenHz_s, 0.2);
-  heading_.toes_W = -truth.X_WT.R.col(0);
-  objective_.SetEvidence(evidence_, heading_);
-  set.Follow(objective_, evidence_.cloud, 3);
+  evidence_.toes_W = -truth.X_WT.R.col(0);
+  set.Follow(objective_, 3);
   Try(set, 3);
   EXPECT_GT(Facing(set, truth), 0.9);
 }
@@ -205,10 +202,10 @@ TEST_F(Schedule, TheSameInputGivesTheSameBits) {
   HypothesisSet one = Believing(Standing({})), other = one;
   Scheduler again(body_.table());
   for (int i = 0; i < 3; ++i) {
-    one.Follow(objective_, evidence_.cloud, kAtTenHz_s);
+    one.Follow(objective_, kAtTenHz_s);
     Try(one, kAtTenHz_s);
-    other.Follow(objective_, evidence_.cloud, kAtTenHz_s);
-    again.Try({objective_, evidence_, heading_}, other, true, kAtTenHz_s);
+    other.Follow(objective_, kAtTenHz_s);
+    again.Try(objective_, other, true, kAtTenHz_s);
   }
   ASSERT_EQ(one.all().size(), other.all().size());
   EXPECT_EQ(one.best().filter.pose().theta, other.best().filter.pose().theta);

@@ -10,7 +10,7 @@ namespace {
 class Search : public FittedBody {
  protected:
   const std::vector<StanceCandidate>& Find(const SearchScope& scope = {}) {
-    return search_.Find(evidence_, heading_, scope, objective_);
+    return search_.Find(objective_, scope);
   }
 
   /// Somebody in a hat with a broad brim.

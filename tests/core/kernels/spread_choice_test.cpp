@@ -1,4 +1,4 @@
-#include "core/spread_choice.h"
+#include "core/kernels/spread_choice.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "core/hypotheses/size_jacobian.h"
+#include "core/body/size_jacobian.h"
 
 namespace mocap {
 
@@ -17,14 +17,14 @@ void SizeJacobian::Update(const BodyModel& body, const PoseState& pose) {
   }
 }
 
-double SizeJacobian::OutwardBySize(const SurfaceResidual& residual, int size) const {
-  const PosedCapsule& from = shape_[residual.capsule];
-  const PosedCapsule& to = sizes_[size].larger[residual.capsule];
-  const double share = residual.share;
+double SizeJacobian::OutwardBySize(int capsule, double share, const Vector3& normal_W,
+                                   int size) const {
+  const PosedCapsule& from = shape_[capsule];
+  const PosedCapsule& to = sizes_[size].larger[capsule];
   const Vector3 moved = (1 - share) * (to.a_W - from.a_W) + share * (to.b_W - from.b_W);
   const double thicker = (1 - share) * (to.radius_a_mm - from.radius_a_mm) +
                          share * (to.radius_b_mm - from.radius_b_mm);
-  return residual.normal_W.dot(moved) + thicker;
+  return normal_W.dot(moved) + thicker;
 }
 
 }  // namespace mocap

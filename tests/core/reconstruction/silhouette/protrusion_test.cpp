@@ -1,4 +1,4 @@
-#include "core/evidence/protrusion.h"
+#include "core/reconstruction/silhouette/protrusion.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "core/objective/posed_body.h"
+#include "core/body/posed_body.h"
 
 #include <algorithm>
 
@@ -6,11 +6,13 @@ namespace mocap {
 
 void PosedBody::Set(const BodyModel& body, const PoseState& pose) {
   body_ = &body;
+  pose_ = pose;
   posture_ = body.PostureAt(pose);
   body.PoseShape(posture_, capsules_);
 }
 
 void PosedBody::Move(const PoseState& pose, std::span<const int> rows) {
+  pose_ = pose;
   body_->MoveAxes(pose, rows, posture_);
   const std::vector<Capsule>& shape = body_->shape();
   for (std::size_t i = 0; i < shape.size(); ++i)

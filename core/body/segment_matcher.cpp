@@ -1,4 +1,4 @@
-#include "core/objective/contact_matcher.h"
+#include "core/body/segment_matcher.h"
 
 #include <algorithm>
 #include <bit>
@@ -15,10 +15,7 @@ using kernels::SlimCapsule;
 
 // Lower limit for squared lengths, to avoid division by zero.
 constexpr float kLeastSq_mm2 = 1e-3f;
-// Share of all edges. If this many edges miss the hull and graze a part, its flesh was carved away.
-constexpr double kShareThatTells = 1.0 / 60;
-constexpr float kGrazes_mm = 40;
-// Contacts are sorted by cells of this size. Longer edges come separately, because their boxes are
+// Segments are sorted by cells of this size. Longer ones come separately, because their boxes are
 // large.
 constexpr double kCell_mm = 128;
 constexpr double kLong_mm = 400;
@@ -29,13 +26,13 @@ static_assert(kKeyBits >= 2 + 3 * kCellBits);
 // Number of blocks with the same initial guess.
 constexpr int kFirstTogether = 8;
 
-// Sorts by rows of cells, one above the other; edges come after the other contacts.
-std::uint32_t KeyOf(const Contact& contact) {
+// Sorts by rows of cells, one above the other; points come first.
+std::uint32_t KeyOf(const OrientedSegment& segment) {
   // Conversion rounds towards zero.
   constexpr double kAhead = 1 << 10;
-  const Vector3 place = ((contact.from_W + contact.to_W) / (2 * kCell_mm)).array() + kAhead;
-  const bool is_long = (contact.to_W - contact.from_W).squaredNorm() > kLong_mm * kLong_mm;
-  std::uint32_t key = contact.is_edge ? 1 + is_long : 0;
+  const Vector3 place = ((segment.from_W + segment.to_W) / (2 * kCell_mm)).array() + kAhead;
+  const double length_sq = (segment.to_W - segment.from_W).squaredNorm();
+  std::uint32_t key = length_sq == 0 ? 0 : 1 + (length_sq > kLong_mm * kLong_mm);
   for (int axis = 2; axis >= 0; --axis) {
     const auto cell = static_cast<std::uint32_t>(static_cast<int>(place[axis]));
     key = key << kCellBits | (cell & ((1u << kCellBits) - 1));
@@ -54,7 +51,7 @@ std::uint32_t CapsulesOf(const kernels::BestCapsules& best) {
 
 }  // namespace
 
-void ContactMatcher::Slim(std::span<const PosedCapsule> capsules) {
+void SegmentMatcher::Slim(std::span<const PosedCapsule> capsules) {
   slim_.capsules.clear();
   for (const PosedCapsule& capsule : capsules) {
     const Eigen::Vector3f a = capsule.a_W.cast<float>();
@@ -79,26 +76,20 @@ void ContactMatcher::Slim(std::span<const PosedCapsule> capsules) {
   slim_.all = ~std::uint32_t{0} >> (kMostCapsules - capsules.size());
 }
 
-void ContactMatcher::SetContacts(std::span<const Contact> contacts) {
-  contacts_.assign(contacts.begin(), contacts.end());
-  matches_.resize(contacts.size());
+void SegmentMatcher::Prepare() {
+  matches_.resize(segments_.size());
   SortByPlace();
-  blocks_.resize((contacts.size() + Block::kContacts - 1) / Block::kContacts);
+  blocks_.resize((segments_.size() + Block::kContacts - 1) / Block::kContacts);
   for (std::size_t i = 0; i < blocks_.size(); ++i) FillBlock(i * Block::kContacts, blocks_[i]);
   bests_.resize(blocks_.size());
   trials_.resize(blocks_.size() * kMostCapsules + 1);
-  missing_.clear();
-  for (std::size_t place = 0; place < order_.size(); ++place)
-    if (contacts_[order_[place]].misses_hull) missing_.push_back(place);
-  const auto edges = std::ranges::count_if(contacts_, &Contact::is_edge);
-  rays_that_tell_ = std::max(2.0, kShareThatTells * static_cast<double>(edges));
   has_favourites_ = false;
 }
 
 // Radix sort, lowest digit first.
-void ContactMatcher::SortByPlace() {
+void SegmentMatcher::SortByPlace() {
   keys_.clear();
-  for (const Contact& contact : contacts_) keys_.push_back(KeyOf(contact));
+  for (const OrientedSegment& segment : segments_) keys_.push_back(KeyOf(segment));
   order_.resize(keys_.size());
   order_before_.resize(keys_.size());
   std::iota(order_.begin(), order_.end(), 0);
@@ -114,20 +105,20 @@ void ContactMatcher::SortByPlace() {
   }
 }
 
-// The last contact is repeated to fill the block.
-void ContactMatcher::FillBlock(std::size_t first, Block& block) const {
+// The last segment is repeated to fill the block.
+void SegmentMatcher::FillBlock(std::size_t first, Block& block) const {
   for (int i = 0; i < Block::kContacts; ++i) {
-    const Contact& contact =
-        contacts_[order_[std::min(first + static_cast<std::size_t>(i), order_.size() - 1)]];
-    const Eigen::Vector3f from = contact.from_W.cast<float>();
-    const Eigen::Vector3f to = contact.to_W.cast<float>();
+    const OrientedSegment& segment =
+        segments_[order_[std::min(first + static_cast<std::size_t>(i), order_.size() - 1)]];
+    const Eigen::Vector3f from = segment.from_W.cast<float>();
+    const Eigen::Vector3f to = segment.to_W.cast<float>();
     for (int axis = 0; axis < 3; ++axis) {
       block.from[axis][i] = from[axis];
-      block.along[axis][i] = static_cast<float>(contact.to_W[axis] - contact.from_W[axis]);
-      block.outward[axis][i] = static_cast<float>(contact.outward_W[axis]);
+      block.along[axis][i] = static_cast<float>(segment.to_W[axis] - segment.from_W[axis]);
+      block.outward[axis][i] = static_cast<float>(segment.outward_W[axis]);
     }
     block.along_sq[i] =
-        std::max(static_cast<float>((contact.to_W - contact.from_W).squaredNorm()), kLeastSq_mm2);
+        std::max(static_cast<float>((segment.to_W - segment.from_W).squaredNorm()), kLeastSq_mm2);
     block.per_along_sq[i] = 1 / block.along_sq[i];
     block.favourites = 0;
     for (int axis = 0; axis < 3; ++axis) {
@@ -139,7 +130,7 @@ void ContactMatcher::FillBlock(std::size_t first, Block& block) const {
 }
 
 // Lists the trials for many blocks first: a decision after each trial would wait for its result.
-void ContactMatcher::MatchBlocks(int begin, int end, float reach_mm) {
+void SegmentMatcher::MatchBlocks(int begin, int end, float reach_mm) {
   int count = 0;
   for (int b = begin; b < end; ++b) {
     bests_[b].mismatch.fill(reach_mm);
@@ -155,7 +146,7 @@ void ContactMatcher::MatchBlocks(int begin, int end, float reach_mm) {
   for (int b = begin; b < end; ++b) blocks_[b].favourites = CapsulesOf(bests_[b]);
 }
 
-void ContactMatcher::MatchAll(std::span<const PosedCapsule> capsules, double reach_mm) {
+void SegmentMatcher::MatchAll(std::span<const PosedCapsule> capsules, double reach_mm) {
   MOCAP_CHECK(!capsules.empty() && capsules.size() <= kMostCapsules);
   Slim(capsules);
   const int count = static_cast<int>(blocks_.size());
@@ -169,39 +160,19 @@ void ContactMatcher::MatchAll(std::span<const PosedCapsule> capsules, double rea
   }
 }
 
-template <typename Visit>
-void ContactMatcher::ForEachBest(const Visit& visit) const {
-  for (std::size_t i = 0; i < order_.size(); ++i)
-    visit(order_[i], bests_[i / Block::kContacts], i % Block::kContacts);
-}
-
-const std::vector<ContactMatch>& ContactMatcher::Match(std::span<const PosedCapsule> capsules,
+const std::vector<SegmentMatch>& SegmentMatcher::Match(std::span<const PosedCapsule> capsules,
                                                        double reach_mm) {
   MatchAll(capsules, reach_mm);
   pairs_.clear();
-  ForEachBest([&](std::uint32_t contact, const kernels::BestCapsules& best, std::size_t i) {
-    ContactMatch& match = matches_[contact];
-    match.capsule = best.capsule[i];
-    if (match.capsule < 0) return;
-    pairs_.push_back({&capsules[match.capsule], &contacts_[contact].from_W,
-                      &contacts_[contact].to_W, &match.distance});
-  });
+  for (std::size_t i = 0; i < order_.size(); ++i) {
+    const OrientedSegment& segment = segments_[order_[i]];
+    SegmentMatch& match = matches_[order_[i]];
+    match.capsule = bests_[i / Block::kContacts].capsule[i % Block::kContacts];
+    if (match.capsule < 0) continue;
+    pairs_.push_back({&capsules[match.capsule], &segment.from_W, &segment.to_W, &match.distance});
+  }
   FindDistances(pairs_);
   return matches_;
-}
-
-std::uint32_t ContactMatcher::CarvedAway() const {
-  if (missing_.empty()) return 0;
-  std::array<int, kMostCapsules> rays{};
-  for (const std::size_t place : missing_) {
-    const kernels::BestCapsules& best = bests_[place / Block::kContacts];
-    const std::size_t i = place % Block::kContacts;
-    if (best.capsule[i] >= 0 && best.distance[i] < kGrazes_mm) ++rays[best.capsule[i]];
-  }
-  std::uint32_t capsules = 0;
-  for (int k = 0; k < kMostCapsules; ++k)
-    if (rays[k] >= rays_that_tell_) capsules |= std::uint32_t{1} << k;
-  return capsules;
 }
 
 }  // namespace mocap

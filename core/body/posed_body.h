@@ -1,4 +1,4 @@
-// A body at a pose, as the terms of the objective see it.
+// A body at a pose: its axes and capsules.
 #pragma once
 
 #include <cstdint>
@@ -23,23 +23,19 @@ class PosedBody {
   void Move(const PoseState& pose, std::span<const int> rows);
 
   const BodyModel& body() const { return *body_; }
+  const PoseState& pose() const { return pose_; }
   const Posture& posture() const { return posture_; }
   const std::vector<PosedCapsule>& capsules() const { return capsules_; }
   int CarrierOf(int capsule) const { return body_->shape()[capsule].carrier; }
 
  private:
   const BodyModel* body_ = nullptr;
+  PoseState pose_;
   Posture posture_;
   std::vector<PosedCapsule> capsules_;
 };
 
-/// What terms add their linearisation to.
-struct Linearisation {
-  ChainEquations& chain;
-  UpdateEquations& equations;
-};
-
-/// Places along the core of each capsule that terms compare, as shares of its length.
+/// Places along the core of each capsule that are compared, as shares of its length.
 inline constexpr std::array<double, 3> kCoreShares = {0.0, 0.5, 1.0};
 
 inline Vector3 CorePlace(const PosedCapsule& capsule, double share) {

@@ -5,7 +5,6 @@
 #include <vector>
 
 #include "core/body/body_model.h"
-#include "core/objective/objective.h"
 
 namespace mocap {
 
@@ -17,9 +16,10 @@ class SizeJacobian {
 
   /// Sets a body of the same table, and a pose.
   void Update(const BodyModel& body, const PoseState& pose);
-  /// Returns how far the surface moves outward along a residual's normal as a size grows [mm/mm].
-  /// @param size  index among the sizes given to the constructor.
-  double OutwardBySize(const SurfaceResidual& residual, int size) const;
+  /// Returns how far the surface of a capsule moves outward along a normal as a size grows [mm/mm].
+  /// @param share  position along the capsule's core.
+  /// @param size   index among the sizes given to the constructor.
+  double OutwardBySize(int capsule, double share, const Vector3& normal_W, int size) const;
 
  private:
   struct Size {
