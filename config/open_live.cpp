@@ -104,7 +104,8 @@ CameraRequest RequestFor(const Config& config, const CameraConfig& camera,
   return request;
 }
 
-/// The only camera whose strobe can be wired to this one's trigger.
+/// The only camera whose strobe can be wired to this one's trigger. Cameras cannot be asked how
+/// they are wired: if two have a strobe, nothing is guessed.
 std::string MasterOf(const Config& config, const CameraConfig& camera) {
   if (config.source.driver != "aravis" || !camera.aravis.waits_for_line()) return "";
   const auto has_strobe = [](const CameraConfig& other) { return !other.aravis.strobe.empty(); };

@@ -24,8 +24,9 @@ using HintListener = std::function<bool(const std::vector<CameraHint>&)>;
 void RequireNew(const std::filesystem::path& folder);
 
 /// Records until the listener stops it, the time is over or the cameras end. All cameras keep
-/// frames of the same times. The search for the board does not delay the recording. What was
-/// recorded stays, also when something is thrown.
+/// frames of the same times. The search for the board does not delay the recording, and the
+/// calibration can be computed again from what was recorded. That stays, also when something is
+/// thrown.
 /// @throws SetupError          when the folder exists, or a camera cannot be used.
 /// @throws std::runtime_error  when a camera delivers nothing, or something cannot be written.
 void RecordBoard(std::vector<LiveCamera>& cameras, const BoardRecordingOptions& options,

@@ -15,7 +15,8 @@ namespace mocap {
 /// Each point of the body is measured once more, where it was in the frame before. The variance
 /// grows quickly with the distance (Geman and McClure 1987): noise is held back, and a motion that
 /// is larger than noise breaks free in the frame in which it begins. The filter's covariance tells
-/// how the parts of the body depend on each other, and how large the noise is.
+/// how the parts of the body depend on each other, and how large the noise is. A low-pass filter of
+/// the output would delay motions, and so would a filter with less process noise.
 class SteadyPose {
  public:
   /// Forgets the frame before.

@@ -1,5 +1,6 @@
 // Chooses some of many places, evenly spread, by where they are: a place that was chosen stays
-// chosen while others come and go.
+// chosen while others come and go. With every n-th of a list, one that comes or goes changes all
+// choices after it, and still bodies trembled.
 #pragma once
 
 #include <array>

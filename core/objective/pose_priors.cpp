@@ -14,7 +14,7 @@ struct HabitCosts {
   // One pose in a thousand: an estimate. It is no evidence that errs alike over a body, so that it
   // is divided by what a frame's evidence counts (kFrameWorth).
   double upside_down_nats = 27.6;
-  double against_feet_nats = 4.8;  // Of 121 pairs of feet, one pointed backwards (decision 0121).
+  double against_feet_nats = 4.8;  // Of 121 pairs of feet, one pointed backwards (feet.h).
   // Men are 1756 mm tall with a standard deviation of 67 (Gordon et al. 1989), and taller in a
   // hull, by hair and shoes. Whoever sits would otherwise be taken for a giant in the chair. Women
   // and children are shorter: nobody costs more for that.

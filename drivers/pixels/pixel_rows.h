@@ -1,4 +1,5 @@
-// Conversion of cameras' rows, compiled for each kind of processor as the kernels of core are.
+// Conversion of cameras' rows, compiled for each kind of processor as the kernels of core are. The
+// formats of V4L2 and GenICam differ in layout only, so plain loops suffice, and no scaler.
 #pragma once
 
 #include <cstdint>

@@ -164,8 +164,9 @@ class BoardDetector::Impl {
     return found;
   }
 
-  // The detector is biased by some hundredths of a pixel, which means millimetres for a board on
-  // the floor. The intersection of the edges at a corner is unbiased.
+  // The detector finds boards that nothing else finds, but is biased by 0.05 to 0.1 pixels to one
+  // side. For a board on the floor this means millimetres: without it, errors of points in the room
+  // fell from 2.5 to 1.1 mm. The intersection of the edges at a corner is unbiased.
   static void RefineCorners(const cv::Mat& gray, std::vector<cv::Point2f>& corners) {
     const std::vector<cv::Point2f> found = corners;
     for (std::size_t i = 0; i < found.size(); ++i) {

@@ -1,4 +1,6 @@
-// A wand with a light at each end, for rooms in which a board is too small.
+// A wand with a light at each end, for rooms in which a board is too small. The ends need not
+// differ in colour or size: both assignments are tried. For the bundle adjustment, it is a board
+// with two corners.
 #pragma once
 
 #include <vector>
