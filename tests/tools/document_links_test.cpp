@@ -41,12 +41,13 @@ std::vector<std::string> RelativeLinksIn(const std::string& text) {
 }
 
 /// The anchors that Markdown gives to headings: small letters, hyphens for blanks, no punctuation.
-std::set<std::string> AnchorsIn(const std::string& text) {
+/// @param highest  level of the headings: 2 leaves out the title.
+std::set<std::string> AnchorsIn(const std::string& text, std::size_t highest = 1) {
   std::set<std::string> anchors;
   std::istringstream lines(text);
   for (std::string line; std::getline(lines, line);) {
     const std::size_t level = line.find_first_not_of('#');
-    if (level == 0 || level == std::string::npos || line[level] != ' ') continue;
+    if (level < highest || level == std::string::npos || line[level] != ' ') continue;
     std::string anchor;
     for (const unsigned char letter : line.substr(level + 1)) {
       if (letter == ' ') anchor += '-';
@@ -83,6 +84,12 @@ TEST(DocumentLinks, EveryDecisionIsInTheIndex) {
     const std::string name = entry.path().filename();
     if (name == "README.md") continue;
     EXPECT_EQ(std::count(linked.begin(), linked.end(), name), 1) << name;
+    const std::set<std::string> decisions = AnchorsIn(testing::ReadText(entry.path()), 2);
+    EXPECT_FALSE(decisions.empty()) << name;
+    for (const std::string& anchor : decisions) {
+      const std::string decision = name + '#' + anchor;
+      EXPECT_EQ(std::count(linked.begin(), linked.end(), decision), 1) << decision;
+    }
   }
 }
 
