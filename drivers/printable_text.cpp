@@ -1,3 +1,7 @@
+// Text is made printable where it leaves the program: where errors are printed, in the log's
+// format, in the status text, and before mocap prints what a daemon or the network sent. If each
+// input had a rule of its own, the next one would lack it. Inside the program, and in files and
+// JSON, names stay as they are.
 #include "drivers/printable_text.h"
 
 #include <glib.h>

@@ -1,6 +1,5 @@
-// Chooses some of many places, evenly spread, by where they are: a place that was chosen stays
-// chosen while others come and go. With every n-th of a list, one that comes or goes changes all
-// choices after it, and still bodies trembled.
+// Chooses some of many places, evenly spread, by where they are. A chosen place stays chosen while
+// others come and go: with every n-th of a list, still bodies trembled.
 #pragma once
 
 #include <array>

@@ -21,8 +21,7 @@ struct CameraOffset {
   bool has_moved = false;  ///< More than silhouette errors explain.
 };
 
-/// Data about a calibration, in its own file: a separate one would be lost on the first copy. Files
-/// of other programs and of takes may lack it.
+/// Data about a calibration, in its own file. Files of other programs and of takes may lack it.
 struct CalibrationRecord {
   std::int64_t made_s = 0;            ///< Since the Unix epoch; 0: not known.
   double reprojection_px = 0;         ///< 0: not known.
