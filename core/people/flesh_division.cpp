@@ -150,7 +150,7 @@ void FleshDivision::DivideStrangeFlesh() {
     piece_cells_[run.piece].extend(Eigen::Vector3i(run.end - 1, run.j, run.k));
   }
   const auto is_large = [&](int piece) {
-    return LitresOf(sizes[piece], strange_.voxel_mm()) >= kLeastStrangerLitres;
+    return LitresOf(sizes[piece], strange_.voxel_mm()) >= kPerson.litres;
   };
   for (int piece = 0; piece < pieces; ++piece)
     if (is_large(piece)) MakeStrangers(piece);
@@ -164,13 +164,13 @@ void FleshDivision::MakeStrangers(int piece) {
   runs_.clear();
   for (const VoxelPieces::Run& run : pieces_.runs())
     if (run.piece == piece) runs_.push_back(run);
-  standing_.Divide(runs_, strange_, kLeastStrangerLitres);
+  watershed_.Divide(runs_, strange_, kPerson);
   const std::size_t first = claims_.size();
-  for (int person = 0; person < standing_.count(); ++person)
+  for (int person = 0; person < watershed_.count(); ++person)
     claims_.emplace_back().grid.Reset(strange_.first_voxel(), strange_.size(), strange_.voxel_mm());
   for (const VoxelPieces::Run& run : runs_) {
     for (int x = run.begin; x < run.end; ++x) {
-      const auto person = static_cast<std::size_t>(standing_.OwnerOf(x, run.j));
+      const auto person = static_cast<std::size_t>(watershed_.HillAt(x, run.j));
       Add({run.j, run.k, x, x + 1, piece}, claims_[first + person]);
     }
   }

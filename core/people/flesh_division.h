@@ -5,9 +5,9 @@
 #include <vector>
 
 #include "core/people/posed_person.h"
-#include "core/people/standing_flesh.h"
 #include "core/reconstruction/carving/voxel_grid.h"
 #include "core/reconstruction/carving/voxel_pieces.h"
+#include "core/reconstruction/carving/watershed.h"
 #include "core/reconstruction/silhouette/outline.h"
 
 namespace mocap {
@@ -28,8 +28,10 @@ struct FleshShare {
 /// there is one. Strangers who touch are separated by their heads.
 class FleshDivision {
  public:
-  /// A piece of this size may be an unknown person.
-  static constexpr double kLeastStrangerLitres = 20;
+  /// A piece this large may be an unknown person. Two heads are this much higher than what connects
+  /// them: shoulders, or hands that meet. So are knees, but they are lower than the head of
+  /// somebody who sits on the floor. A raised arm has too little flesh, and who lies is too low.
+  static constexpr HillLimits kPerson{.valley_mm = 180, .top_mm = 700, .litres = 20};
 
   void Divide(const VoxelGrid& grid, std::span<const PosedPerson> people);
 
@@ -66,7 +68,7 @@ class FleshDivision {
   std::vector<int> owner_of_piece_;
   std::vector<Eigen::AlignedBox3i> piece_cells_;
   std::vector<VoxelPieces::Run> runs_;  // Of a piece.
-  StandingFlesh standing_;
+  Watershed watershed_;
   std::vector<FleshShare> shares_, strangers_;
 };
 

@@ -237,7 +237,7 @@ bool PeopleCapture::Impl::IsAlone(const VoxelGrid& grid) {
   if (members_.size() > 1 || members_.front()->beside) return false;
   if (posed_.size() == 1) {
     return LitresBeside(grid, CellsWithin(grid, posed_.front().box_W)) <
-           FleshDivision::kLeastStrangerLitres;
+           FleshDivision::kPerson.litres;
   }
   flesh_.Divide(grid, posed_);
   return flesh_.strangers().size() <= 1;

@@ -9,8 +9,8 @@
 #include <string_view>
 #include <vector>
 
+#include "core/body/recognition.h"
 #include "core/motion_capture.h"
-#include "core/people/recognition.h"
 #include "core/people/side_search.h"
 #include "core/reconstruction/carving/carving_view.h"
 

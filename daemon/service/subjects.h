@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "core/body/body_sizes.h"
-#include "core/people/recognition.h"
+#include "core/body/recognition.h"
 
 namespace mocap {
 

@@ -1,4 +1,4 @@
-#include "core/people/recognition.h"
+#include "core/body/recognition.h"
 
 #include <gtest/gtest.h>
 
