@@ -131,8 +131,8 @@ void FleshDivision::FindOwners(const Vector3& p_W, std::span<const PosedPerson> 
     const double distance_mm = DistanceTo(person, p_W, enough_mm, guesses_[i]);
     if (distance_mm > person.reach_mm) continue;
     owners_.push_back(i);
-    if (distance_mm + person.handicap_mm >= least_mm) continue;
-    least_mm = distance_mm + person.handicap_mm;
+    if (distance_mm >= least_mm) continue;
+    least_mm = distance_mm;
     std::swap(owners_.front(), owners_.back());
   }
   const bool is_explained = least_mm <= kExplainsMm;

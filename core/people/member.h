@@ -14,9 +14,13 @@
 
 namespace mocap {
 
+/// Reach of somebody who was tracked in the last set, but for the way since.
+inline constexpr double kReachMm = 220;
+
 /// Somebody who is tracked or searched for.
 struct Member {
   bool has_pose() const { return !beside && capture->result().state != CaptureState::kSearching; }
+  bool is_lost() const { return has_pose() && capture->result().state == CaptureState::kLost; }
   void SetName(std::string_view to, double how_certain) {
     name = to;
     certainty = how_certain;
@@ -32,6 +36,9 @@ struct Member {
   bool is_expected = false;  ///< The next person has that name.
   /// Centre of the flesh of a person who is not located yet.
   std::optional<Vector3> last_W;
+  /// Flesh this close to the predicted body may be the person's. Grows while the person is not
+  /// tracked.
+  double reach_mm = kReachMm;
   // The following times are of PeopleCapture's clock.
   std::optional<std::int64_t> waits_since_ns;  ///< For the search.
   /// Entered from outside the covered area, or when nobody else was tracked yet.

@@ -33,7 +33,7 @@ double MismatchOf(const GrazingRay& ray, const PosedPerson& person) {
     const double facing = offset.dot(ray.outward_W) / (offset.norm() + 1);
     least_mm = std::min(least_mm, std::abs(distance.outside_mm) + kSquareMm * (1 - facing));
   }
-  return least_mm + person.handicap_mm;
+  return least_mm;
 }
 
 }  // namespace

@@ -10,23 +10,18 @@
 #include "core/counted_time.h"
 #include "core/errors.h"
 #include "core/evidence/evidence.h"
-#include "core/people/believed_flesh.h"
 #include "core/people/flesh_division.h"
 #include "core/people/member.h"
 #include "core/people/outline_division.h"
 #include "core/people/posed_person.h"
-#include "core/people/set_rhythm.h"
 #include "core/people/witnesses.h"
 #include "core/reconstruction/carving/voxel_block.h"
 
 namespace mocap {
 namespace {
 
-// Flesh this close to a predicted body may be its own. A lost person, and everybody after a gap,
-// also gets flesh that is farther away, if it is nobody else's.
-constexpr double kReachMm = 250;
-constexpr double kLostReachMm = 700;
-constexpr double kLostHandicapMm = 250;
+// People walk this fast.
+constexpr double kWayMm_s = 1000;
 // A carved-away limb may be this far from its prediction or from the flesh.
 constexpr double kAsideMm = 100;
 // A person without this many witnesses, for longer than one set can count, is none.
@@ -92,12 +87,10 @@ class PeopleCapture::Impl {
   int last_id_ = 0;
   std::optional<std::int64_t> last_ns_;            // Of the last set.
   std::int64_t clock_ns_ = 0;                      // Counts time with sets only.
-  SetRhythm rhythm_;                               // Of all sets.
-  bool follows_gap_ = false;                       // The set comes long after the one before.
   std::optional<std::int64_t> followed_since_ns_;  // Since when anybody is tracked.
   std::vector<PosedPerson> posed_;                 // For members whose pose is known.
   std::vector<Member*> posed_member_;              // Likewise.
-  BelievedFlesh believed_;
+  VoxelGrid believed_;
   VoxelGrid flesh_of_one_;
   FleshDivision flesh_;
   OutlineDivision outlines_;
@@ -156,7 +149,7 @@ void PeopleCapture::Impl::Update(const Sighting& room, std::span<const CameraEye
   NoteGap(capture_ns);
   BringBack();
   PoseMembers(capture_ns);
-  const Sighting believed(believed_.Of(room, posed_), room.outlines, room.box_W);
+  const Sighting believed(BelieveWithin(posed_, room, believed_), room.outlines, room.box_W);
   if (IsAlone(believed.flesh)) {
     Thin(room.outlines, options_.fineness);
     UpdateAlone(believed, capture_ns, observer);
@@ -176,10 +169,11 @@ void PeopleCapture::Impl::Update(const Sighting& room, std::span<const CameraEye
 // after a long one whoever is seen may be somebody else.
 void PeopleCapture::Impl::NoteGap(std::int64_t capture_ns) {
   const double passed_s = last_ns_ ? SecondsBetween(*last_ns_, capture_ns) : 0;
-  follows_gap_ = last_ns_ && rhythm_.IsGap(passed_s);
   last_ns_ = capture_ns;
   clock_ns_ += std::llround(1e9 * std::max(0.0, CountedS(passed_s)));
-  if (!follows_gap_) return;
+  const double way_mm = kWayMm_s * std::max(0.0, passed_s);
+  for (const auto& member : members_)
+    member->reach_mm = std::min(member->reach_mm + way_mm, kReachMm + kSameMm);
   if (passed_s > kPatienceS) followed_since_ns_.reset();
   if (passed_s > kLongestGapS) StartOver(expected_, std::string(expected_name_));
 }
@@ -225,9 +219,9 @@ void PeopleCapture::Impl::PoseMembers(std::int64_t capture_ns) {
   posed_.resize(posed_member_.size());
   for (std::size_t i = 0; i < posed_.size(); ++i) {
     const MotionCapture& capture = *posed_member_[i]->capture;
-    const bool is_lost = follows_gap_ || capture.result().state == CaptureState::kLost;
-    PosePerson(capture.body(), capture.PredictedPose(capture_ns), is_lost ? kLostReachMm : kReachMm,
-               is_lost ? kLostHandicapMm : 0, posed_[i]);
+    PosePerson(capture.body(), capture.PredictedPose(capture_ns), posed_member_[i]->reach_mm,
+               posed_[i]);
+    posed_[i].is_lost = capture.result().state == CaptureState::kLost;
   }
 }
 
@@ -333,6 +327,8 @@ void PeopleCapture::Impl::JudgeMembers() {
   };
   if (members_.size() > 1) std::erase_if(members_, has_gone);
   if (members_.empty()) AddMember();
+  for (const auto& member : members_)
+    if (!member->is_lost()) member->reach_mm = kReachMm;
   const bool is_alone = members_.size() == 1;
   if (is_alone && !members_.front()->has_pose()) {
     Member& next = *members_.front();

@@ -6,11 +6,10 @@
 
 namespace mocap {
 
-void PosePerson(const BodyModel& body, const PoseState& pose, double reach_mm, double handicap_mm,
+void PosePerson(const BodyModel& body, const PoseState& pose, double reach_mm,
                 PosedPerson& person) {
   body.PoseShape(body.PostureAt(pose), person.capsules);
   person.reach_mm = reach_mm;
-  person.handicap_mm = handicap_mm;
   person.box_W.setEmpty();
   for (const PosedCapsule& capsule : person.capsules) {
     const Vector3 a = Vector3::Constant(capsule.radius_a_mm + reach_mm);
@@ -20,19 +19,23 @@ void PosePerson(const BodyModel& body, const PoseState& pose, double reach_mm, d
   }
 }
 
-void AddCellsWithin(const PosedPerson& person, std::span<const Eigen::Vector3i> cells,
-                    VoxelGrid& flesh) {
-  const auto is_within = [&](const Vector3& p_W) {
-    return std::ranges::any_of(person.capsules, [&](const PosedCapsule& capsule) {
+const VoxelGrid& BelieveWithin(std::span<const PosedPerson> people, const Sighting& room,
+                               VoxelGrid& believed) {
+  if (room.doubtful.empty() || people.empty()) return room.flesh;
+  believed = room.flesh;
+  for (const Eigen::Vector3i& cell : room.doubtful) {
+    const Vector3 p_W = believed.CenterOf(cell.x(), cell.y(), cell.z());
+    const auto has_it_within = [&](const PosedCapsule& capsule) {
       const bool is_near = (p_W - capsule.middle_W).norm() <= capsule.reach_mm;
       return is_near && capsule.DistanceTo(p_W).outside_mm <= 0;
+    };
+    const bool is_believed = std::ranges::any_of(people, [&](const PosedPerson& person) {
+      return !person.is_lost && person.box_W.contains(p_W) &&
+             std::ranges::any_of(person.capsules, has_it_within);
     });
-  };
-  for (const Eigen::Vector3i& cell : cells) {
-    const Vector3 middle_W = flesh.CenterOf(cell.x(), cell.y(), cell.z());
-    if (person.box_W.contains(middle_W) && is_within(middle_W))
-      flesh.Set(cell.x(), cell.y(), cell.z());
+    if (is_believed) believed.Set(cell.x(), cell.y(), cell.z());
   }
+  return believed;
 }
 
 Eigen::AlignedBox3d AroundStranger(const Eigen::AlignedBox3d& flesh_W) {

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/body/body_model.h"
+#include "core/motion_capture.h"
 #include "core/reconstruction/carving/voxel_grid.h"
 
 namespace mocap {
@@ -19,17 +20,17 @@ struct PosedPerson {
   std::vector<PosedCapsule> capsules;
   Eigen::AlignedBox3d box_W;  ///< Around the capsules and everything they may explain [mm].
   double reach_mm = 0;        ///< Flesh farther than this from every capsule is not the person's.
-  /// Added to the distances of a person whose position is uncertain, so that others come first.
-  double handicap_mm = 0;
+  bool is_lost = false;       ///< The person may be elsewhere.
 };
 
 /// Sets the capsules for a body and a pose; reuses the memory of `person`.
-void PosePerson(const BodyModel& body, const PoseState& pose, double reach_mm, double handicap_mm,
-                PosedPerson& person);
+void PosePerson(const BodyModel& body, const PoseState& pose, double reach_mm, PosedPerson& person);
 
-/// Sets those cells of a grid whose centres are within the body.
-void AddCellsWithin(const PosedPerson& person, std::span<const Eigen::Vector3i> cells,
-                    VoxelGrid& flesh);
+/// Returns a room's flesh with the doubtful cells that are within the bodies of people who are not
+/// lost. Where there are none, that is the room's own.
+/// @param believed  memory for the result.
+const VoxelGrid& BelieveWithin(std::span<const PosedPerson> people, const Sighting& room,
+                               VoxelGrid& believed);
 
 /// Returns a box around flesh, with a margin and down to the floor: legs may have been carved away.
 Eigen::AlignedBox3d DownToFloor(const Eigen::AlignedBox3d& flesh_W, double beside_mm);

@@ -22,7 +22,7 @@ class Division : public ::testing::Test {
     pose.X_WT.p = Vector3(x_mm, 0, body.sizes().torso / 2 + body.sizes().thigh + body.sizes().calf);
     pose.theta = AnglesOf(Stance{}, table_);
     PosedPerson person;
-    PosePerson(body, pose, kReachMm, 0, person);
+    PosePerson(body, pose, kReachMm, person);
     return person;
   }
 

@@ -4,7 +4,6 @@
 #include <random>
 #include <vector>
 
-#include "core/people/set_rhythm.h"
 #include "tests/support/room.h"
 
 namespace mocap {
@@ -157,24 +156,6 @@ TEST_F(SlowRoomForTwo, WhoVanishesBeforeHeIsFoundTakesNobodysPlace) {
   See(Carve({stays_, At(1000, 0, 1700)}), 9);
   EXPECT_FALSE(desk_.empty());
   EXPECT_EQ(Ids(), std::vector{1});
-}
-
-TEST(SetRhythm, KnowsAGapByTheUsualInterval) {
-  for (const double usual_s : {0.033, 0.1, 0.33, 1.0, 10.0}) {
-    SetRhythm rhythm;
-    for (int i = 0; i < 3; ++i) rhythm.IsGap(usual_s);
-    EXPECT_FALSE(rhythm.IsGap(usual_s)) << usual_s;
-    EXPECT_TRUE(rhythm.IsGap(7 * usual_s)) << usual_s;
-    EXPECT_FALSE(rhythm.IsGap(usual_s)) << usual_s;
-  }
-}
-
-// Ten sets a second, of which every other may be missing.
-TEST(SetRhythm, TakesNoDroppedSetForAGap) {
-  SetRhythm rhythm;
-  rhythm.IsGap(0.1);
-  for (int i = 0; i < 40; ++i)
-    EXPECT_FALSE(rhythm.IsGap((i % 2 == 0 ? 0.1 : 0.2) + (i % 3 == 0 ? 0.02 : 0))) << i;
 }
 
 TEST_F(Room, WhoIsThereAfterALongGapIsMeasuredAnew) {

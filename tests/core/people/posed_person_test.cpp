@@ -1,4 +1,4 @@
-#include "core/people/believed_flesh.h"
+#include "core/people/posed_person.h"
 
 #include <gtest/gtest.h>
 
@@ -12,13 +12,14 @@ namespace {
 
 constexpr double kVoxel_mm = 50;
 
-PosedPerson StandingBeliever(double handicap_mm) {
+PosedPerson StandingBeliever(bool is_lost) {
   const BodyModel body(LoadBodyTable("full"), AverageSizes(1750));
   PoseState pose;
   pose.X_WT.p = Vector3(0, 0, 1200);
   pose.theta.setZero(body.joint_count());
   PosedPerson person;
-  PosePerson(body, pose, 250, handicap_mm, person);
+  PosePerson(body, pose, 250, person);
+  person.is_lost = is_lost;
   return person;
 }
 
@@ -29,14 +30,14 @@ TEST(BelievedFlesh, IsWhatCamerasCannotTellWithinABodyAndNothingElse) {
   const std::vector<Eigen::Vector3i> doubtful = {trunk, beside};
   Sighting room(flesh, {});
   room.doubtful = doubtful;
-  BelievedFlesh believed;
-  const std::vector<PosedPerson> known = {StandingBeliever(0)}, lost = {StandingBeliever(250)};
-  const VoxelGrid& grid = believed.Of(room, known);
+  VoxelGrid memory;
+  const std::vector<PosedPerson> known = {StandingBeliever(false)}, lost = {StandingBeliever(true)};
+  const VoxelGrid& grid = BelieveWithin(known, room, memory);
   EXPECT_TRUE(grid.Test(trunk.x(), trunk.y(), trunk.z()));
   EXPECT_FALSE(grid.Test(beside.x(), beside.y(), beside.z()));
   EXPECT_FALSE(grid.Test(empty.x(), empty.y(), empty.z())) << "a camera calls it empty";
-  EXPECT_FALSE(believed.Of(room, lost).Test(trunk.x(), trunk.y(), trunk.z()));
-  EXPECT_EQ(&believed.Of(room, {}), &flesh);
+  EXPECT_FALSE(BelieveWithin(lost, room, memory).Test(trunk.x(), trunk.y(), trunk.z()));
+  EXPECT_EQ(&BelieveWithin({}, room, memory), &flesh);
 }
 
 }  // namespace
