@@ -4,6 +4,8 @@
 #include <cmath>
 #include <optional>
 
+#include "core/line_range.h"
+
 namespace mocap {
 namespace {
 
@@ -14,25 +16,9 @@ struct Cut {
 };
 constexpr Cut kCut{};
 
-struct Range {
-  double from_mm;
-  double to_mm;
-};
-
-// Intersects a line with a box.
-std::optional<Range> Within(const Eigen::AlignedBox3d& box, const Vector3& eye,
-                            const Vector3& direction) {
-  const Vector3 a = (box.min() - eye).cwiseQuotient(direction);
-  const Vector3 b = (box.max() - eye).cwiseQuotient(direction);
-  const double from = std::max(0.0, a.cwiseMin(b).maxCoeff());
-  const double to = a.cwiseMax(b).minCoeff();
-  if (!(from < to)) return std::nullopt;
-  return Range{from, to};
-}
-
 // The part of a ray along the voxels; empty if it misses them.
-std::optional<Range> AlongVoxels(const VoxelCloud& cloud, const GrazingRay& ray,
-                                 const Range& in_box) {
+std::optional<LineRange> AlongVoxels(const VoxelCloud& cloud, const GrazingRay& ray,
+                                     const LineRange& in_box) {
   const double step_mm = kCut.step * cloud.voxel_mm();
   const Vector3 eye_W = ray.eye_W - kCut.inward * cloud.voxel_mm() * ray.outward_W;
   const int steps = static_cast<int>(std::ceil((in_box.to_mm - in_box.from_mm) / step_mm));
@@ -42,10 +28,10 @@ std::optional<Range> AlongVoxels(const VoxelCloud& cloud, const GrazingRay& ray,
   const std::optional<int> first = cloud.FirstHeld(places, stretch);
   if (!first) return std::nullopt;
   const int last = cloud.LastHeld(places, stretch);
-  return Range{in_box.from_mm + *first * step_mm, in_box.from_mm + last * step_mm};
+  return LineRange{in_box.from_mm + *first * step_mm, in_box.from_mm + last * step_mm};
 }
 
-BoundingEdge EdgeOf(const GrazingRay& ray, const Range& range) {
+BoundingEdge EdgeOf(const GrazingRay& ray, const LineRange& range) {
   return {{ray.eye_W + range.from_mm * ray.direction_W, ray.eye_W + range.to_mm * ray.direction_W,
            ray.outward_W},
           false,
@@ -81,9 +67,9 @@ BoundingEdgeFinder::Camera BoundingEdgeFinder::CutRays(const VoxelCloud& cloud,
   Camera camera;
   camera.rays = static_cast<int>(outline.size());
   for (const GrazingRay& ray : outline) {
-    const std::optional<Range> in_box = Within(box_W, ray.eye_W, ray.direction_W);
+    const std::optional<LineRange> in_box = RangeWithin(box_W, ray.eye_W, ray.direction_W);
     if (!in_box) continue;
-    const std::optional<Range> stretch = AlongVoxels(cloud, ray, *in_box);
+    const std::optional<LineRange> stretch = AlongVoxels(cloud, ray, *in_box);
     cuts_.push_back(EdgeOf(ray, stretch.value_or(*in_box)));
     cuts_.back().misses_hull = !stretch;
     camera.missing += !stretch;

@@ -8,7 +8,6 @@
 #include "core/reconstruction/carving/voxel_grid.h"
 #include "core/reconstruction/carving/voxel_pieces.h"
 #include "core/reconstruction/carving/watershed.h"
-#include "core/reconstruction/silhouette/outline.h"
 
 namespace mocap {
 
@@ -16,7 +15,6 @@ namespace mocap {
 struct FleshShare {
   VoxelGrid flesh, room;
   Eigen::AlignedBox3d box_W;  ///< Around `flesh` [mm]; empty if there is none.
-  double litres = 0;
 };
 
 /// Divides the flesh in a room among the known people, and finds flesh that belongs to nobody.
@@ -35,39 +33,36 @@ class FleshDivision {
 
   void Divide(const VoxelGrid& grid, std::span<const PosedPerson> people);
 
-  /// Whether a ray grazes flesh of a share or passes through it. Strangers' shares follow the
-  /// people's.
-  bool Touches(std::size_t share, const GrazingRay& ray) const;
-
   /// One for each person, in the same order.
   const std::vector<FleshShare>& shares() const { return shares_; }
-  /// The strange pieces, the largest first.
+  /// The people in strange flesh, those in the largest piece first.
   const std::vector<FleshShare>& strangers() const { return strangers_; }
 
  private:
+  using Runs = std::span<const VoxelPieces::Run>;
   struct Claim {
+    void Clear(const VoxelGrid& like) {
+      grid.Reset(like.first_voxel(), like.size(), like.voxel_mm());
+      cells.setEmpty();
+    }
+    void Add(int i, int j, int k) {
+      grid.Set(i, j, k);
+      cells.extend(Eigen::Vector3i(i, j, k));
+    }
     VoxelGrid grid;
     Eigen::AlignedBox3i cells;
-    int voxels = 0;
   };
 
-  void ClaimRow(const VoxelGrid& grid, int j, int k, std::span<const PosedPerson> people);
   void FindOwners(const Vector3& p_W, std::span<const PosedPerson> people);
   void DivideStrangeFlesh();
-  void MakeStrangers(int piece);
-  int ClaimBeside(const Eigen::AlignedBox3i& cells) const;
-  static void Add(const VoxelPieces::Run& run, Claim& claim);
-  void Cut(const VoxelGrid& grid, const Claim& claim, FleshShare& share) const;
+  void MakeStrangers(Runs piece);
+  void GiveToNearest(Runs piece);
 
-  std::vector<Claim> claims_;    // Of the people, then of strangers.
-  std::vector<int> candidates_;  // People whose boxes a row passes through.
-  std::vector<int> owners_;      // Of a voxel.
-  std::vector<int> guesses_;     // The capsule that explained each person's last voxel.
+  std::vector<Claim> claims_;  // Of the people, then of strangers.
+  std::vector<int> owners_;    // Of a voxel.
   VoxelGrid strange_;
   VoxelPieces pieces_;
-  std::vector<int> owner_of_piece_;
-  std::vector<Eigen::AlignedBox3i> piece_cells_;
-  std::vector<VoxelPieces::Run> runs_;  // Of a piece.
+  std::vector<VoxelPieces::Run> runs_;  // Of strange flesh, piece by piece.
   Watershed watershed_;
   std::vector<FleshShare> shares_, strangers_;
 };

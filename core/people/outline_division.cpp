@@ -3,114 +3,110 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 namespace mocap {
 namespace {
 
-// Perpendicular surfaces count as this far apart, as in a fit.
-constexpr double kSquareMm = 40;
 // Beyond this mismatch a body certainly does not explain a ray.
-constexpr double kSurelyNotMm = 120;
-// Longer than any room.
-constexpr double kFarMm = 30000;
+constexpr double kSurelyNotMm = 1.5 * kExplainsMm;
 // A camera with this many rays of a person shows that person.
 constexpr int kRaysOfWitness = 6;
 
-bool Passes(const GrazingRay& ray, const Eigen::AlignedBox3d& box_W) {
-  const Vector3 a = (box_W.min() - ray.eye_W).cwiseQuotient(ray.direction_W);
-  const Vector3 b = (box_W.max() - ray.eye_W).cwiseQuotient(ray.direction_W);
-  return std::max(0.0, a.cwiseMin(b).maxCoeff()) < a.cwiseMax(b).minCoeff();
-}
-
-double MismatchOf(const GrazingRay& ray, const PosedPerson& person) {
+// How far a ray passes from a body's surface. One of the opposite direction is not explained.
+double MismatchOf(const GrazingRay& ray, const LineRange& range, const PosedPerson& person) {
+  const Vector3 from_W = ray.eye_W + range.from_mm * ray.direction_W;
+  const Vector3 to_W = ray.eye_W + range.to_mm * ray.direction_W;
   double least_mm = std::numeric_limits<double>::infinity();
   for (const PosedCapsule& capsule : person.capsules) {
-    const Vector3 to_middle = capsule.middle_W - ray.eye_W;
-    const double aside_mm = to_middle.cross(ray.direction_W).norm();
+    const double aside_mm = (capsule.middle_W - ray.eye_W).cross(ray.direction_W).norm();
     if (aside_mm - capsule.reach_mm >= least_mm) continue;
-    const auto distance = capsule.DistanceTo(ray.eye_W, ray.eye_W + kFarMm * ray.direction_W);
+    const auto distance = capsule.DistanceTo(from_W, to_W);
     const Vector3 offset = distance.segment_W - distance.core_W;
     const double facing = offset.dot(ray.outward_W) / (offset.norm() + 1);
-    least_mm = std::min(least_mm, std::abs(distance.outside_mm) + kSquareMm * (1 - facing));
+    least_mm = std::min(least_mm, std::abs(distance.outside_mm) + kExplainsMm / 2 * (1 - facing));
   }
   return least_mm;
+}
+
+// Whether a ray grazes flesh or passes through it.
+bool Touches(const GrazingRay& ray, const FleshShare& share) {
+  // As shares of a voxel: the step along the ray, and the offset of the test line towards the
+  // inside.
+  constexpr double kStep = 0.8, kInward = 0.7;
+  const VoxelGrid& flesh = share.flesh;
+  const Vector3 eye_W = ray.eye_W - kInward * flesh.voxel_mm() * ray.outward_W;
+  const auto range = RangeWithin(share.box_W, eye_W, ray.direction_W);
+  for (double mm = range ? range->from_mm : 0; range && mm < range->to_mm;
+       mm += kStep * flesh.voxel_mm()) {
+    const Vector3 p = (eye_W + mm * ray.direction_W - flesh.origin_W()) / flesh.voxel_mm();
+    const Eigen::Vector3i at = p.array().floor().cast<int>();
+    if (flesh.Contains(at.x(), at.y(), at.z()) && flesh.Test(at.x(), at.y(), at.z())) return true;
+  }
+  return false;
 }
 
 }  // namespace
 
 void OutlineDivision::Divide(std::span<const Outline> outlines, std::span<const PosedPerson> people,
                              const FleshDivision& flesh) {
-  shares_.resize(people.size() + flesh.strangers().size());
-  sole_.resize(shares_.size());
-  for (std::size_t i = 0; i < shares_.size(); ++i) {
-    shares_[i].own.resize(outlines.size());
-    shares_[i].near.resize(outlines.size());
-    for (Outline& outline : shares_[i].own) outline.clear();
-    for (Outline& outline : shares_[i].near) outline.clear();
-    sole_[i].assign(outlines.size(), 0);
+  boxes_W_.clear();
+  for (const PosedPerson& person : people) boxes_W_.push_back(person.box_W);
+  for (const FleshShare& stranger : flesh.strangers())
+    boxes_W_.push_back(AroundStranger(stranger.box_W));
+  shares_.resize(boxes_W_.size());
+  for (OutlineShare& share : shares_) {
+    share.witnesses = 0;
+    for (std::vector<Outline>* const rays : {&share.own, &share.near}) {
+      rays->resize(outlines.size());
+      for (Outline& outline : *rays) outline.clear();
+    }
   }
-  for (std::size_t camera = 0; camera < outlines.size(); ++camera)
+  for (std::size_t camera = 0; camera < outlines.size(); ++camera) {
+    sole_.assign(shares_.size(), 0);
     for (const GrazingRay& ray : outlines[camera]) DivideRay(ray, camera, people, flesh);
-  CountWitnesses();
+    for (std::size_t i = 0; i < shares_.size(); ++i)
+      shares_[i].witnesses += sole_[i] >= kRaysOfWitness;
+  }
 }
 
 void OutlineDivision::DivideRay(const GrazingRay& ray, std::size_t camera,
                                 std::span<const PosedPerson> people, const FleshDivision& flesh) {
   passed_.clear();
   for (std::size_t i = 0; i < shares_.size(); ++i) {
-    const Eigen::AlignedBox3d box_W =
-        i < people.size() ? people[i].box_W
-                          : AroundStranger(flesh.strangers()[i - people.size()].box_W);
-    if (!Passes(ray, box_W)) continue;
-    passed_.push_back({i, 0, true});
+    const auto range = RangeWithin(boxes_W_[i], ray.eye_W, ray.direction_W);
+    if (!range) continue;
+    passed_.push_back({i, *range});
     shares_[i].near[camera].push_back(ray);
   }
-  const Passed* const owner = OwnerOf(ray, people, flesh);
-  if (!owner) return;
-  shares_[owner->share].own[camera].push_back(ray);
-  if (owner->mismatch_mm > kExplainsMm) ShareAmongTouched(ray, camera, *owner, people.size());
-  // A stranger's body is unknown: it takes no witness from a known person.
-  const bool is_known = owner->share < people.size();
-  const bool is_shared = std::ranges::any_of(passed_, [&](const Passed& passed) {
-    return &passed != owner && passed.mismatch_mm <= kSurelyNotMm &&
-           (!is_known || passed.share < people.size());
-  });
-  sole_[owner->share][camera] += !is_shared;
-}
-
-// Rays that no body explains may graze a lost limb: they go to all people whose flesh they touch.
-void OutlineDivision::ShareAmongTouched(const GrazingRay& ray, std::size_t camera,
-                                        const Passed& owner, std::size_t people) {
-  for (const Passed& passed : passed_) {
-    if (&passed != &owner && passed.touches && passed.share < people)
-      shares_[passed.share].own[camera].push_back(ray);
-  }
-}
-
-const OutlineDivision::Passed* OutlineDivision::OwnerOf(const GrazingRay& ray,
-                                                        std::span<const PosedPerson> people,
-                                                        const FleshDivision& flesh) {
-  if (passed_.size() == 1) return &passed_.front();
-  const Passed* owner = nullptr;
   for (Passed& passed : passed_) {
-    passed.touches = flesh.Touches(passed.share, ray);
+    if (passed_.size() == 1) break;
     // A stranger's body is unknown.
-    passed.mismatch_mm =
-        passed.share < people.size() ? MismatchOf(ray, people[passed.share]) : kExplainsMm;
-    if (!passed.touches && passed.mismatch_mm > kExplainsMm) continue;
-    const bool is_better =
-        !owner || passed.touches > owner->touches ||
-        (passed.touches == owner->touches && passed.mismatch_mm < owner->mismatch_mm);
-    if (is_better) owner = &passed;
+    const bool is_known = passed.share < people.size();
+    if (is_known) passed.mismatch_mm = MismatchOf(ray, passed.range, people[passed.share]);
+    passed.touches = Touches(ray, is_known ? flesh.shares()[passed.share]
+                                           : flesh.strangers()[passed.share - people.size()]);
   }
-  return owner;
+  Assign(ray, camera, people.size());
 }
 
-void OutlineDivision::CountWitnesses() {
-  for (std::size_t i = 0; i < shares_.size(); ++i) {
-    shares_[i].witnesses = static_cast<int>(
-        std::ranges::count_if(sole_[i], [](int rays) { return rays >= kRaysOfWitness; }));
+// Gives a ray to whom it grazes best, among those whose flesh it touches. It shows nobody if it may
+// be another's, but a stranger takes no witness from a known person.
+void OutlineDivision::Assign(const GrazingRay& ray, std::size_t camera, std::size_t people) {
+  const auto best = std::ranges::min_element(passed_, {}, [](const Passed& passed) {
+    return std::pair(!passed.touches, passed.mismatch_mm);
+  });
+  const auto is_unexplained = [](const Passed& passed) { return passed.mismatch_mm > kExplainsMm; };
+  if (best == passed_.end() || (!best->touches && is_unexplained(*best))) return;
+  bool is_shared = false;
+  for (auto passed = passed_.begin(); passed != passed_.end(); ++passed) {
+    const bool is_known = passed->share < people;
+    const bool is_lost_limbs = is_unexplained(*best) && passed->touches && is_known;
+    if (passed == best || is_lost_limbs) shares_[passed->share].own[camera].push_back(ray);
+    is_shared |= passed != best && passed->mismatch_mm <= kSurelyNotMm &&
+                 (is_known || best->share >= people);
   }
+  sole_[best->share] += !is_shared;
 }
 
 }  // namespace mocap

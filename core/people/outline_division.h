@@ -4,6 +4,7 @@
 #include <span>
 #include <vector>
 
+#include "core/line_range.h"
 #include "core/people/flesh_division.h"
 #include "core/people/posed_person.h"
 #include "core/reconstruction/silhouette/outline.h"
@@ -22,8 +23,8 @@ struct OutlineShare {
 ///
 /// A ray belongs to the person whose flesh it touches. If it touches several people's flesh or
 /// none, it belongs to the one whose predicted body it grazes best: it passes near and faces the
-/// same way. Rays that no body explains go to strangers whom they pass, and to all people whose
-/// flesh they touch, because a lost limb may be anybody's.
+/// same way. Rays that no body explains go to strangers whose flesh they touch, and to all people
+/// whose flesh they touch, because a lost limb may be anybody's.
 class OutlineDivision {
  public:
   /// @param flesh  of the same set, divided among the same people.
@@ -36,20 +37,18 @@ class OutlineDivision {
  private:
   struct Passed {
     std::size_t share;
-    double mismatch_mm;
-    bool touches;
+    LineRange range;
+    double mismatch_mm = kExplainsMm;  // Of a body that is unknown, too.
+    bool touches = true;
   };
   void DivideRay(const GrazingRay& ray, std::size_t camera, std::span<const PosedPerson> people,
                  const FleshDivision& flesh);
-  void ShareAmongTouched(const GrazingRay& ray, std::size_t camera, const Passed& owner,
-                         std::size_t people);
-  const Passed* OwnerOf(const GrazingRay& ray, std::span<const PosedPerson> people,
-                        const FleshDivision& flesh);
-  void CountWitnesses();
+  void Assign(const GrazingRay& ray, std::size_t camera, std::size_t people);
 
   std::vector<OutlineShare> shares_;
-  std::vector<std::vector<int>> sole_;  // Per share and camera: rays that are nobody else's.
-  std::vector<Passed> passed_;          // Shares whose boxes a ray passes through.
+  std::vector<Eigen::AlignedBox3d> boxes_W_;  // Of the shares.
+  std::vector<int> sole_;                     // Per share: rays of a camera that are nobody else's.
+  std::vector<Passed> passed_;                // Shares whose boxes a ray passes through.
 };
 
 }  // namespace mocap
