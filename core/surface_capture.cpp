@@ -120,19 +120,12 @@ class SurfaceCapture : public MotionCapture {
   }
 
   void SomebodyThere(double dt_s) {
-    switch (result_.state) {
-      case CaptureState::kSearching:
-        Search(dt_s);
-        break;
-      case CaptureState::kLost:
-        Search(dt_s);
-        if (result_.state == CaptureState::kLost) Await(dt_s);
-        break;
-      case CaptureState::kAcquiring:
-      case CaptureState::kTracking:
-        Follow(dt_s);
-        break;
+    if (result_.state == CaptureState::kAcquiring || result_.state == CaptureState::kTracking) {
+      Follow(dt_s);
+      return;
     }
+    Search(dt_s);
+    if (result_.state == CaptureState::kLost) Await(dt_s);
   }
 
   void Search(double dt_s) {

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <optional>
 
-#include "core/line_range.h"
+#include "core/reconstruction/silhouette/line_range.h"
 
 namespace mocap {
 namespace {

@@ -16,18 +16,6 @@ constexpr double kBesideFleshMm = 300;
 constexpr int kMargin = 3;
 constexpr double kFar = std::numeric_limits<double>::infinity();
 
-// At most the person's reach. Any distance below `enough_mm` will do.
-double DistanceTo(const PosedPerson& person, const Vector3& p_W, double enough_mm) {
-  double least_mm = person.reach_mm;
-  for (const PosedCapsule& capsule : person.capsules) {
-    const double from_middle_mm = least_mm + capsule.reach_mm;
-    if ((p_W - capsule.middle_W).squaredNorm() >= from_middle_mm * from_middle_mm) continue;
-    least_mm = std::min(least_mm, capsule.DistanceTo(p_W).outside_mm);
-    if (least_mm < enough_mm) break;
-  }
-  return least_mm;
-}
-
 Eigen::AlignedBox3d BoxOf(const Eigen::AlignedBox3i& cells, const VoxelGrid& grid) {
   if (cells.isEmpty()) return {};
   const Eigen::Vector3i past = cells.max() + Eigen::Vector3i::Ones();
@@ -67,12 +55,10 @@ void FleshDivision::Divide(const VoxelGrid& grid, std::span<const PosedPerson> p
     for (const int owner : owners_) claims_[owner].Add(i, j, k);
   });
   DivideStrangeFlesh();
-  shares_.resize(people.size());
-  strangers_.resize(claims_.size() - people.size());
-  for (std::size_t i = 0; i < claims_.size(); ++i) {
-    FleshShare& share = i < people.size() ? shares_[i] : strangers_[i - people.size()];
-    Cut(grid, claims_[i].grid, claims_[i].cells, share);
-  }
+  people_ = people.size();
+  shares_.resize(claims_.size());
+  for (std::size_t i = 0; i < claims_.size(); ++i)
+    Cut(grid, claims_[i].grid, claims_[i].cells, shares_[i]);
 }
 
 // Finds the person nearest to a point. Flesh that no body explains may belong to a lost limb:

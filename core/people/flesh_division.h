@@ -33,10 +33,10 @@ class FleshDivision {
 
   void Divide(const VoxelGrid& grid, std::span<const PosedPerson> people);
 
-  /// One for each person, in the same order.
+  /// One for each person, in the same order, then the strangers'.
   const std::vector<FleshShare>& shares() const { return shares_; }
   /// The people in strange flesh, those in the largest piece first.
-  const std::vector<FleshShare>& strangers() const { return strangers_; }
+  std::span<const FleshShare> strangers() const { return std::span(shares_).subspan(people_); }
 
  private:
   using Runs = std::span<const VoxelPieces::Run>;
@@ -64,7 +64,8 @@ class FleshDivision {
   VoxelPieces pieces_;
   std::vector<VoxelPieces::Run> runs_;  // Of strange flesh, piece by piece.
   Watershed watershed_;
-  std::vector<FleshShare> shares_, strangers_;
+  std::vector<FleshShare> shares_;
+  std::size_t people_ = 0;
 };
 
 }  // namespace mocap

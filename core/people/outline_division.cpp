@@ -82,10 +82,9 @@ void OutlineDivision::DivideRay(const GrazingRay& ray, std::size_t camera,
   for (Passed& passed : passed_) {
     if (passed_.size() == 1) break;
     // A stranger's body is unknown.
-    const bool is_known = passed.share < people.size();
-    if (is_known) passed.mismatch_mm = MismatchOf(ray, passed.range, people[passed.share]);
-    passed.touches = Touches(ray, is_known ? flesh.shares()[passed.share]
-                                           : flesh.strangers()[passed.share - people.size()]);
+    if (passed.share < people.size())
+      passed.mismatch_mm = MismatchOf(ray, passed.range, people[passed.share]);
+    passed.touches = Touches(ray, flesh.shares()[passed.share]);
   }
   Assign(ray, camera, people.size());
 }

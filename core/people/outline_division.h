@@ -4,9 +4,9 @@
 #include <span>
 #include <vector>
 
-#include "core/line_range.h"
 #include "core/people/flesh_division.h"
 #include "core/people/posed_person.h"
+#include "core/reconstruction/silhouette/line_range.h"
 #include "core/reconstruction/silhouette/outline.h"
 
 namespace mocap {

@@ -2,116 +2,67 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iterator>
-#include <optional>
-#include <string>
-#include <utility>
 
 #include "core/counted_time.h"
 #include "core/errors.h"
 #include "core/evidence/evidence.h"
-#include "core/people/flesh_division.h"
-#include "core/people/member.h"
-#include "core/people/outline_division.h"
-#include "core/people/posed_person.h"
-#include "core/people/witnesses.h"
 #include "core/reconstruction/carving/voxel_block.h"
 
 namespace mocap {
 namespace {
 
-// People walk this fast.
-constexpr double kWayMm_s = 1000;
-// A carved-away limb may be this far from its prediction or from the flesh.
-constexpr double kAsideMm = 100;
-// A person without this many witnesses, for longer than one set can count, is none.
-constexpr int kFewestWitnesses = 2;
-// A newcomer who is not seen for this long has left.
-constexpr double kUnseenS = 0.3;
-// After this time, a person who is not shown completely is searched for anyway.
-constexpr double kWholeWithinS = 0.3;
-// Somebody who was not seen entering counts as a person only after this time.
-constexpr double kPatienceS = 1.0;
-// This close to the border of the covered area, somebody may just have entered.
-constexpr double kBorderMm = 600;
-// After a gap of this time, everybody is forgotten.
-constexpr double kLongestGapS = 5.0;
-// Strange flesh that moved less than this since the last frame is the same newcomer.
-constexpr double kSameMm = 600;
+// When flesh is somebody's, and somebody is there; chosen on takes of several people.
+struct PeopleLimits {
+  // Flesh this close to a predicted body may be its own, and farther away after a time without
+  // tracking, at the speed of a walk, up to a stride.
+  double reach_mm = 220, walk_mm_s = 1000;
+  // Cameras that show a newcomer where nobody else is; with few cameras, all but one. A person with
+  // fewer than the least is none.
+  int least_witnesses = 2, witnesses = 4;
+  // Whoever is not seen for this long has left. Whoever is not shown completely is searched for
+  // after it.
+  double brief_s = 0.3;
+  // Somebody who was not seen entering counts as a person only after this time.
+  double patience_s = 1;
+  double longest_gap_s = 5;  // After it, everybody is forgotten.
+  // Strange flesh that moved less than this since the last set is the same newcomer. This close to
+  // the border of the covered area, somebody may just have entered.
+  double stride_mm = 600;
+};
+constexpr PeopleLimits kLimits{};
 
-double SecondsBetween(std::int64_t before_ns, std::int64_t after_ns) {
-  return static_cast<double>(after_ns - before_ns) * 1e-9;
+int WitnessesWanted(std::size_t cameras) {
+  return std::clamp(static_cast<int>(cameras) - 1, kLimits.least_witnesses, kLimits.witnesses);
+}
+
+// Whether enough cameras have a whole person in their pictures, so that they do not show only a
+// part, also after a move by `beside_mm`. Feet stand on the floor.
+bool IsCovered(const Eigen::AlignedBox3d& flesh_W, double beside_mm,
+               std::span<const CameraEye> eyes) {
+  Eigen::AlignedBox3d box_W = DownToFloor(flesh_W, 0);
+  const Vector3 beside(beside_mm, beside_mm, 0);
+  box_W = {box_W.min() - beside, box_W.max() + beside};
+  const auto seeing =
+      std::ranges::count_if(eyes, [&](const CameraEye& eye) { return eye.SeesAllWithin(box_W); });
+  return seeing >= WitnessesWanted(eyes.size());
 }
 
 }  // namespace
 
-class PeopleCapture::Impl {
- public:
-  Impl(MakeCapture make, const PeopleOptions& options);
-
-  void Update(const Sighting& room, std::span<const CameraEye> eyes, std::int64_t capture_ns,
-              UpdateObserver* observer);
-  const std::vector<PersonView>& people() const { return people_; }
-  const MotionCapture& first() const;
-  void StartOver(const std::optional<BodySizes>& sizes, std::string_view name);
-  void Know(std::vector<KnownPerson> people) { known_ = std::move(people); }
-  void Call(int id, std::string_view name);
-
- private:
-  void Equip(Member& member) const;
-  void NoteGap(std::int64_t capture_ns);
-  void BringBack();
-  void Thin(std::span<const Outline> outlines, int step);
-  void UpdateAlone(const Sighting& room, std::int64_t capture_ns, UpdateObserver* observer);
-  bool IsAlone(const VoxelGrid& grid);
-  void PoseMembers(std::int64_t capture_ns);
-  void Divide(const VoxelGrid& grid);
-  void MeetStrangers(std::span<const CameraEye> eyes);
-  bool IsBeginning() const;
-  Member* MemberFor(const Vector3& middle_W);
-  void UpdateMembers(std::int64_t capture_ns, UpdateObserver* observer);
-  void JudgeMembers();
-  void Recognise();
-  bool IsHere(std::string_view name) const;
-  void ListPeople();
-  Member& AddMember();
-
-  const MakeCapture make_;
-  const PeopleOptions options_;
-  std::optional<BodySizes> expected_;  // For the next person.
-  std::string expected_name_;
-  std::vector<KnownPerson> known_;
-  const std::unique_ptr<MotionCapture> nobody_;
-  int witnesses_wanted_ = 0;
-  std::vector<std::unique_ptr<Member>> members_;  // Never empty.
-  int last_id_ = 0;
-  std::optional<std::int64_t> last_ns_;            // Of the last set.
-  std::int64_t clock_ns_ = 0;                      // Counts time with sets only.
-  std::optional<std::int64_t> followed_since_ns_;  // Since when anybody is tracked.
-  std::vector<PosedPerson> posed_;                 // For members whose pose is known.
-  std::vector<Member*> posed_member_;              // Likewise.
-  VoxelGrid believed_;
-  VoxelGrid flesh_of_one_;
-  FleshDivision flesh_;
-  OutlineDivision outlines_;
-  std::vector<Outline> thinned_;
-  std::vector<PersonView> people_;
-};
-
-PeopleCapture::Impl::Impl(MakeCapture make, const PeopleOptions& options)
+PeopleCapture::PeopleCapture(MakeCapture make, const PeopleOptions& options)
     : make_(std::move(make)), options_(options), nobody_(make_()) {
   MOCAP_CHECK(options.most >= 1 && options.fineness >= 1);
   AddMember();
 }
 
-Member& PeopleCapture::Impl::AddMember() {
+Member& PeopleCapture::AddMember() {
   Member& member = *members_.emplace_back(std::make_unique<Member>());
   Equip(member);
   return member;
 }
 
 // Gives a member a capture that has seen nobody yet.
-void PeopleCapture::Impl::Equip(Member& member) const {
+void PeopleCapture::Equip(Member& member) const {
   member.beside.reset();
   member.capture = make_();
   member.is_expected = false;
@@ -122,39 +73,40 @@ void PeopleCapture::Impl::Equip(Member& member) const {
   member.name = expected_name_;
 }
 
-const MotionCapture& PeopleCapture::Impl::first() const {
+const MotionCapture& PeopleCapture::first() const {
   if (!people_.empty()) return *people_.front().capture;
   const auto is_here = [](const auto& member) { return !member->beside; };
   const auto member = std::ranges::find_if(members_, is_here);
   return member == members_.end() ? *nobody_ : *(*member)->capture;
 }
 
-void PeopleCapture::Impl::StartOver(const std::optional<BodySizes>& sizes, std::string_view name) {
-  expected_ = sizes;
-  expected_name_ = name;
-  followed_since_ns_.reset();
+void PeopleCapture::StartOver(std::optional<BodySizes> sizes, std::string name) {
+  expected_ = std::move(sizes);
+  expected_name_ = std::move(name);
+  followed_since_s_.reset();
   people_.clear();
   members_.clear();
   AddMember();
 }
 
-void PeopleCapture::Impl::Call(int id, std::string_view name) {
+void PeopleCapture::Call(int id, std::string_view name) {
   for (const auto& member : members_)
     if (id > 0 && member->id == id) member->SetName(name, 1);
 }
 
-void PeopleCapture::Impl::Update(const Sighting& room, std::span<const CameraEye> eyes,
-                                 std::int64_t capture_ns, UpdateObserver* observer) {
-  witnesses_wanted_ = WitnessesWanted(eyes.size());
-  NoteGap(capture_ns);
+void PeopleCapture::Update(const Sighting& room, std::span<const CameraEye> eyes,
+                           std::int64_t capture_ns, UpdateObserver* observer) {
+  PassTime(capture_ns);
   BringBack();
   PoseMembers(capture_ns);
   const Sighting believed(BelieveWithin(posed_, room, believed_), room.outlines, room.box_W);
-  if (IsAlone(believed.flesh)) {
-    Thin(room.outlines, options_.fineness);
+  const bool is_alone = IsAlone(believed.flesh);
+  thinned_.resize(room.outlines.size());
+  for (std::size_t i = 0; i < thinned_.size(); ++i)
+    ThinOutline(room.outlines[i], is_alone ? options_.fineness : 1, thinned_[i]);
+  if (is_alone) {
     UpdateAlone(believed, capture_ns, observer);
   } else {
-    Thin(room.outlines, 1);
     Divide(believed.flesh);
     MeetStrangers(eyes);
     if (observer) observer->OnStageEnd(UpdateStage::kLabel);
@@ -165,68 +117,50 @@ void PeopleCapture::Impl::Update(const Sighting& room, std::span<const CameraEye
   ListPeople();
 }
 
-// Time without sets tells nothing for or against anybody. But in a gap people may have entered, and
-// after a long one whoever is seen may be somebody else.
-void PeopleCapture::Impl::NoteGap(std::int64_t capture_ns) {
-  const double passed_s = last_ns_ ? SecondsBetween(*last_ns_, capture_ns) : 0;
+// Time without sets tells nothing for or against anybody. But in a gap people may have moved or
+// entered, and after a long one whoever is seen may be somebody else.
+void PeopleCapture::PassTime(std::int64_t capture_ns) {
+  const std::int64_t passed_ns = last_ns_ ? std::max<std::int64_t>(0, capture_ns - *last_ns_) : 0;
+  const double passed_s = static_cast<double>(passed_ns) * 1e-9;
   last_ns_ = capture_ns;
-  clock_ns_ += std::llround(1e9 * std::max(0.0, CountedS(passed_s)));
-  const double way_mm = kWayMm_s * std::max(0.0, passed_s);
+  now_s_ += CountedS(passed_s);
   for (const auto& member : members_)
-    member->reach_mm = std::min(member->reach_mm + way_mm, kReachMm + kSameMm);
-  if (passed_s > kPatienceS) followed_since_ns_.reset();
-  if (passed_s > kLongestGapS) StartOver(expected_, std::string(expected_name_));
+    member->strayed_mm =
+        std::min(member->strayed_mm + kLimits.walk_mm_s * passed_s, kLimits.stride_mm);
+  if (passed_s > kLimits.patience_s) followed_since_s_.reset();
+  if (passed_s > kLimits.longest_gap_s) StartOver(expected_, expected_name_);
 }
 
 // Takes over people who were located in the other thread, up to the last set. While nobody is
 // followed, nobody waits for a search, and that thread may have no time for it: people who are
 // still searched for there are searched for here from now on.
-void PeopleCapture::Impl::BringBack() {
+void PeopleCapture::BringBack() {
   for (const auto& member : members_) {
     if (!member->beside || !member->beside->HasCaughtUp()) continue;
     if (member->capture->result().state == CaptureState::kTracking) member->beside.reset();
   }
   if (std::ranges::any_of(members_, [](const auto& member) { return member->has_pose(); })) return;
-  for (const auto& member : members_) {
+  for (const auto& member : members_)
     if (member->beside) Equip(*member);
-  }
 }
 
-// Flesh beside the box of a single person is nobody's, though the grid may contain it.
-void PeopleCapture::Impl::UpdateAlone(const Sighting& room, std::int64_t capture_ns,
-                                      UpdateObserver* observer) {
-  const Eigen::AlignedBox3i cells = CellsWithin(room.flesh, room.box_W);
-  const bool is_all =
-      !cells.isEmpty() && cells.sizes() + Eigen::Vector3i::Ones() == room.flesh.size();
-  if (!is_all) CopyBlock(room.flesh, cells, flesh_of_one_);
-  Member& member = *members_.front();
-  member.capture->Update({is_all ? room.flesh : flesh_of_one_, thinned_, room.box_W}, capture_ns,
-                         observer);
-  member.seen_ns = member.vouched_ns = clock_ns_;
-}
-
-void PeopleCapture::Impl::Thin(std::span<const Outline> outlines, int step) {
-  thinned_.resize(outlines.size());
-  for (std::size_t i = 0; i < outlines.size(); ++i) ThinOutline(outlines[i], step, thinned_[i]);
-}
-
-void PeopleCapture::Impl::PoseMembers(std::int64_t capture_ns) {
+void PeopleCapture::PoseMembers(std::int64_t capture_ns) {
   posed_member_.clear();
   for (const auto& member : members_)
     if (member->has_pose()) posed_member_.push_back(member.get());
-  if (posed_member_.empty()) followed_since_ns_.reset();
-  if (!posed_member_.empty() && !followed_since_ns_) followed_since_ns_ = clock_ns_;
+  if (posed_member_.empty()) followed_since_s_.reset();
+  if (!posed_member_.empty() && !followed_since_s_) followed_since_s_ = now_s_;
   posed_.resize(posed_member_.size());
   for (std::size_t i = 0; i < posed_.size(); ++i) {
-    const MotionCapture& capture = *posed_member_[i]->capture;
-    PosePerson(capture.body(), capture.PredictedPose(capture_ns), posed_member_[i]->reach_mm,
-               posed_[i]);
-    posed_[i].is_lost = capture.result().state == CaptureState::kLost;
+    const Member& member = *posed_member_[i];
+    PosePerson(member.capture->body(), member.capture->PredictedPose(capture_ns),
+               kLimits.reach_mm + member.strayed_mm, posed_[i]);
+    posed_[i].is_lost = member.is_lost();
   }
 }
 
 // Whether at most one person can be present, so that nothing must be divided.
-bool PeopleCapture::Impl::IsAlone(const VoxelGrid& grid) {
+bool PeopleCapture::IsAlone(const VoxelGrid& grid) {
   if (options_.most == 1) return true;
   if (members_.size() > 1 || members_.front()->beside) return false;
   if (posed_.size() == 1) {
@@ -237,7 +171,16 @@ bool PeopleCapture::Impl::IsAlone(const VoxelGrid& grid) {
   return flesh_.strangers().size() <= 1;
 }
 
-void PeopleCapture::Impl::Divide(const VoxelGrid& grid) {
+// Flesh beside the box of a single person is nobody's, though the grid may contain it.
+void PeopleCapture::UpdateAlone(const Sighting& room, std::int64_t capture_ns,
+                                UpdateObserver* observer) {
+  CopyBlock(room.flesh, CellsWithin(room.flesh, room.box_W), flesh_of_one_);
+  Member& member = *members_.front();
+  member.capture->Update({flesh_of_one_, thinned_, room.box_W}, capture_ns, observer);
+  member.seen_s = now_s_;
+}
+
+void PeopleCapture::Divide(const VoxelGrid& grid) {
   flesh_.Divide(grid, posed_);
   outlines_.Divide(thinned_, posed_, flesh_);
   for (const auto& member : members_) member->flesh = nullptr, member->outlines = nullptr;
@@ -250,85 +193,75 @@ void PeopleCapture::Impl::Divide(const VoxelGrid& grid) {
   }
 }
 
-// Assigns strange flesh to the newcomer it was before, or to a new one.
-void PeopleCapture::Impl::MeetStrangers(std::span<const CameraEye> eyes) {
+// Assigns strange flesh to the newcomer it was before, or to a new one. When tracking begins,
+// people may be present who were not seen entering.
+void PeopleCapture::MeetStrangers(std::span<const CameraEye> eyes) {
+  const bool is_beginning = !followed_since_s_ || now_s_ - *followed_since_s_ < kLimits.patience_s;
   for (std::size_t i = 0; i < flesh_.strangers().size(); ++i) {
     const FleshShare& flesh = flesh_.strangers()[i];
     const OutlineShare& share = outlines_.shares()[posed_.size() + i];
-    if (share.witnesses < witnesses_wanted_) continue;
+    if (share.witnesses < WitnessesWanted(eyes.size())) continue;
     Member* const member = MemberFor(flesh.box_W.center());
     if (!member) continue;
     member->last_W = flesh.box_W.center();
-    member->seen_ns = clock_ns_;
-    if (!member->waits_since_ns) {
-      member->waits_since_ns = clock_ns_;
-      member->has_come = IsBeginning() || !IsCovered(flesh.box_W, kBorderMm, eyes);
+    member->seen_s = now_s_;
+    if (!member->waits_since_s) {
+      member->waits_since_s = now_s_;
+      member->has_come = is_beginning || !IsCovered(flesh.box_W, kLimits.stride_mm, eyes);
     }
     const bool is_whole = IsCovered(flesh.box_W, 0, eyes) && !LacksLegs(flesh.box_W.min().z());
-    const double wanted_s = !member->has_come ? kPatienceS : is_whole ? 0 : kWholeWithinS;
-    if (SecondsBetween(*member->waits_since_ns, clock_ns_) < wanted_s) continue;
+    const double wanted_s = !member->has_come ? kLimits.patience_s : is_whole ? 0 : kLimits.brief_s;
+    if (now_s_ - *member->waits_since_s < wanted_s) continue;
     member->flesh = &flesh;
     member->outlines = &share;
     member->box_W = AroundStranger(flesh.box_W);
   }
 }
 
-// Whether people may be present who were not seen entering.
-bool PeopleCapture::Impl::IsBeginning() const {
-  return !followed_since_ns_ || SecondsBetween(*followed_since_ns_, clock_ns_) < kPatienceS;
-}
-
 // Null if no further person can be tracked.
-Member* PeopleCapture::Impl::MemberFor(const Vector3& middle_W) {
+Member* PeopleCapture::MemberFor(const Vector3& middle_W) {
   Member* nearest = nullptr;
-  double least_mm = kSameMm;
+  double least_mm = kLimits.stride_mm;
   for (const auto& member : members_) {
     if (member->has_pose() || member->flesh) continue;
-    const double moved_mm = member->last_W ? (middle_W - *member->last_W).norm() : kSameMm / 2;
+    const double moved_mm =
+        member->last_W ? (middle_W - *member->last_W).norm() : kLimits.stride_mm / 2;
     if (moved_mm >= least_mm) continue;
     least_mm = moved_mm;
     nearest = member.get();
   }
-  if (!nearest && static_cast<int>(members_.size()) < options_.most) nearest = &AddMember();
-  return nearest;
+  const bool is_full = static_cast<int>(members_.size()) >= options_.most;
+  return nearest || is_full ? nearest : &AddMember();
 }
 
-void PeopleCapture::Impl::UpdateMembers(std::int64_t capture_ns, UpdateObserver* observer) {
-  const VoxelGrid nothing;
-  const bool is_anybody_followed = !posed_.empty();
+void PeopleCapture::UpdateMembers(std::int64_t capture_ns, UpdateObserver* observer) {
   for (const auto& member : members_) {
     if (!member->flesh) {
-      if (!member->beside) member->capture->Update({nothing, {}}, capture_ns, observer);
+      if (!member->beside) member->capture->Update({VoxelGrid(), {}}, capture_ns, observer);
       continue;
     }
-    member->seen_ns = clock_ns_;
     const Sighting sighting(member->flesh->flesh, member->outlines->own, member->box_W,
                             member->flesh->room, member->outlines->near);
-    if (options_.side && is_anybody_followed && !member->has_pose() && !member->beside)
+    if (options_.side && !posed_.empty() && !member->has_pose() && !member->beside)
       member->beside = options_.side->Begin(member->capture);
     if (member->beside) {
       member->beside->See(sighting, capture_ns);
-      member->vouched_ns = clock_ns_;
       continue;
     }
     member->capture->Update(sighting, capture_ns, observer);
     // A lost person has a second to return, and may be hidden.
-    const bool is_lost = member->capture->result().state == CaptureState::kLost;
-    if (is_lost || member->outlines->witnesses >= std::min(kFewestWitnesses, witnesses_wanted_))
-      member->vouched_ns = clock_ns_;
+    if (member->is_lost() || member->outlines->witnesses >= kLimits.least_witnesses)
+      member->seen_s = now_s_;
   }
 }
 
-void PeopleCapture::Impl::JudgeMembers() {
+void PeopleCapture::JudgeMembers() {
   const auto has_gone = [&](const std::unique_ptr<Member>& member) {
-    const auto since_s = [&](std::int64_t then_ns) { return SecondsBetween(then_ns, clock_ns_); };
-    if (member->has_pose() && since_s(member->vouched_ns) > kMostCountedS) return true;
-    return !member->has_pose() && (member->id > 0 || since_s(member->seen_ns) > kUnseenS);
+    const bool was_lost = member->id > 0 && !member->has_pose();
+    return was_lost || now_s_ - member->seen_s > kLimits.brief_s;
   };
   if (members_.size() > 1) std::erase_if(members_, has_gone);
   if (members_.empty()) AddMember();
-  for (const auto& member : members_)
-    if (!member->is_lost()) member->reach_mm = kReachMm;
   const bool is_alone = members_.size() == 1;
   if (is_alone && !members_.front()->has_pose()) {
     Member& next = *members_.front();
@@ -337,6 +270,7 @@ void PeopleCapture::Impl::JudgeMembers() {
     next.compared = {};
   }
   for (const auto& member : members_) {
+    if (!member->is_lost()) member->strayed_mm = 0;
     if (member->id > 0 || !member->has_pose()) continue;
     // A phantom needs others; a single person is reported from the first fit on.
     const bool is_found = member->capture->result().state == CaptureState::kTracking;
@@ -345,52 +279,30 @@ void PeopleCapture::Impl::JudgeMembers() {
 }
 
 // Names people whose sizes have settled again.
-void PeopleCapture::Impl::Recognise() {
+void PeopleCapture::Recognise() {
   if (known_.empty()) return;
   for (const auto& member : members_) {
-    const MotionCapture& capture = *member->capture;
-    const bool is_measured =
-        member->id > 0 && member->has_pose() && capture.acquisition_frames() > 0;
-    if (!is_measured || !member->name.empty()) continue;
-    const BodySizes& sizes = capture.body().sizes();
-    if (sizes == member->compared) continue;
+    if (member->id == 0 || !member->has_pose() || !member->name.empty()) continue;
+    const BodySizes& sizes = member->capture->body().sizes();
+    if (member->capture->acquisition_frames() == 0 || sizes == member->compared) continue;
     member->compared = sizes;
-    std::vector<KnownPerson> absent;
-    std::ranges::copy_if(known_, std::back_inserter(absent),
-                         [this](const KnownPerson& person) { return !IsHere(person.name); });
+    std::vector<KnownPerson> absent = known_;
+    std::erase_if(absent, [&](const KnownPerson& person) {
+      return std::ranges::any_of(members_,
+                                 [&](const auto& one) { return one->name == person.name; });
+    });
     const Likeness likeness = WhoIs(sizes, absent);
-    if (!likeness.person || likeness.certainty < kSureOfName) continue;
-    member->SetName(likeness.person->name, likeness.certainty);
+    if (likeness.person && likeness.certainty >= kSureOfName)
+      member->SetName(likeness.person->name, likeness.certainty);
   }
 }
 
-bool PeopleCapture::Impl::IsHere(std::string_view name) const {
-  return std::ranges::any_of(members_, [&](const auto& member) { return member->name == name; });
-}
-
-void PeopleCapture::Impl::ListPeople() {
+void PeopleCapture::ListPeople() {
   people_.clear();
   for (const auto& member : members_)
     if (member->id > 0)
       people_.push_back({member->id, member->capture.get(), member->name, member->certainty});
   std::ranges::sort(people_, {}, &PersonView::id);
 }
-
-PeopleCapture::PeopleCapture(MakeCapture make, const PeopleOptions& options)
-    : impl_(std::make_unique<Impl>(std::move(make), options)) {}
-PeopleCapture::PeopleCapture(PeopleCapture&&) noexcept = default;
-PeopleCapture::~PeopleCapture() = default;
-void PeopleCapture::Update(const Sighting& room, std::span<const CameraEye> eyes,
-                           std::int64_t capture_ns, UpdateObserver* observer) {
-  impl_->Update(room, eyes, capture_ns, observer);
-}
-const std::vector<PersonView>& PeopleCapture::people() const { return impl_->people(); }
-const MotionCapture& PeopleCapture::first() const { return impl_->first(); }
-void PeopleCapture::Forget() { impl_->StartOver({}, {}); }
-void PeopleCapture::Expect(const BodySizes& sizes, std::string_view name) {
-  impl_->StartOver(sizes, name);
-}
-void PeopleCapture::Know(std::vector<KnownPerson> people) { impl_->Know(std::move(people)); }
-void PeopleCapture::Call(int id, std::string_view name) { impl_->Call(id, name); }
 
 }  // namespace mocap

@@ -5,13 +5,16 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <span>
+#include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "core/body/recognition.h"
 #include "core/motion_capture.h"
-#include "core/people/side_search.h"
+#include "core/people/member.h"
 #include "core/reconstruction/carving/carving_view.h"
 
 namespace mocap {
@@ -49,8 +52,6 @@ class PeopleCapture {
 
   /// @pre most >= 1, fineness >= 1.
   PeopleCapture(MakeCapture make, const PeopleOptions& options);
-  PeopleCapture(PeopleCapture&&) noexcept;
-  ~PeopleCapture();
 
   /// Processes the next frame set.
   /// @param room        as for one person. The box is where he would be: nothing else counts for a
@@ -62,24 +63,58 @@ class PeopleCapture {
               UpdateObserver* observer = nullptr);
 
   /// Returns the tracked people, in the order of their appearance.
-  const std::vector<PersonView>& people() const;
+  const std::vector<PersonView>& people() const { return people_; }
   /// Returns the person tracked for longest, or the search while nobody is tracked.
   const MotionCapture& first() const;
 
   /// Forgets everybody: the next people are measured.
-  void Forget();
+  void Forget() { StartOver({}, {}); }
   /// Sets the sizes of everybody seen from now on as known, and forgets everybody.
   /// @param name  of the person, for people().
-  void Expect(const BodySizes& sizes, std::string_view name = {});
+  void Expect(const BodySizes& sizes, std::string_view name = {}) {
+    StartOver(sizes, std::string(name));
+  }
   /// Sets the known people. A measured person who is recognised by his sizes has the name from then
   /// on, until he leaves. Nobody has it while in doubt, or while another has it.
-  void Know(std::vector<KnownPerson> people);
+  void Know(std::vector<KnownPerson> people) { known_ = std::move(people); }
   /// Gives a name to the person with this number, until he leaves.
   void Call(int id, std::string_view name);
 
  private:
-  class Impl;
-  std::unique_ptr<Impl> impl_;
+  void StartOver(std::optional<BodySizes> sizes, std::string name);
+  Member& AddMember();
+  void Equip(Member& member) const;
+  void PassTime(std::int64_t capture_ns);
+  void BringBack();
+  void PoseMembers(std::int64_t capture_ns);
+  bool IsAlone(const VoxelGrid& grid);
+  void UpdateAlone(const Sighting& room, std::int64_t capture_ns, UpdateObserver* observer);
+  void Divide(const VoxelGrid& grid);
+  void MeetStrangers(std::span<const CameraEye> eyes);
+  Member* MemberFor(const Vector3& middle_W);
+  void UpdateMembers(std::int64_t capture_ns, UpdateObserver* observer);
+  void JudgeMembers();
+  void Recognise();
+  void ListPeople();
+
+  MakeCapture make_;
+  PeopleOptions options_;
+  std::optional<BodySizes> expected_;  // For the next person.
+  std::string expected_name_;
+  std::vector<KnownPerson> known_;
+  std::unique_ptr<MotionCapture> nobody_;
+  std::vector<std::unique_ptr<Member>> members_;  // Never empty.
+  int last_id_ = 0;
+  std::optional<std::int64_t> last_ns_;     // Of the last set.
+  double now_s_ = 0;                        // Counts time with sets only.
+  std::optional<double> followed_since_s_;  // Since when anybody is tracked.
+  std::vector<PosedPerson> posed_;          // For members whose pose is known.
+  std::vector<Member*> posed_member_;       // Likewise.
+  VoxelGrid believed_, flesh_of_one_;
+  FleshDivision flesh_;
+  OutlineDivision outlines_;
+  std::vector<Outline> thinned_;
+  std::vector<PersonView> people_;
 };
 
 }  // namespace mocap

@@ -19,19 +19,25 @@ void PosePerson(const BodyModel& body, const PoseState& pose, double reach_mm,
   }
 }
 
+double DistanceTo(const PosedPerson& person, const Vector3& p_W, double enough_mm) {
+  double least_mm = person.reach_mm;
+  for (const PosedCapsule& capsule : person.capsules) {
+    const double from_middle_mm = least_mm + capsule.reach_mm;
+    if ((p_W - capsule.middle_W).squaredNorm() >= from_middle_mm * from_middle_mm) continue;
+    least_mm = std::min(least_mm, capsule.DistanceTo(p_W).outside_mm);
+    if (least_mm < enough_mm) break;
+  }
+  return least_mm;
+}
+
 const VoxelGrid& BelieveWithin(std::span<const PosedPerson> people, const Sighting& room,
                                VoxelGrid& believed) {
   if (room.doubtful.empty() || people.empty()) return room.flesh;
   believed = room.flesh;
   for (const Eigen::Vector3i& cell : room.doubtful) {
     const Vector3 p_W = believed.CenterOf(cell.x(), cell.y(), cell.z());
-    const auto has_it_within = [&](const PosedCapsule& capsule) {
-      const bool is_near = (p_W - capsule.middle_W).norm() <= capsule.reach_mm;
-      return is_near && capsule.DistanceTo(p_W).outside_mm <= 0;
-    };
     const bool is_believed = std::ranges::any_of(people, [&](const PosedPerson& person) {
-      return !person.is_lost && person.box_W.contains(p_W) &&
-             std::ranges::any_of(person.capsules, has_it_within);
+      return !person.is_lost && person.box_W.contains(p_W) && DistanceTo(person, p_W, 0) <= 0;
     });
     if (is_believed) believed.Set(cell.x(), cell.y(), cell.z());
   }
@@ -39,8 +45,8 @@ const VoxelGrid& BelieveWithin(std::span<const PosedPerson> people, const Sighti
 }
 
 Eigen::AlignedBox3d AroundStranger(const Eigen::AlignedBox3d& flesh_W) {
-  constexpr double kBesideMm = 100, kStrideMm = 400;
-  return DownToFloor(flesh_W, LacksLegs(flesh_W.min().z()) ? kStrideMm : kBesideMm);
+  constexpr double kStrideMm = 400;
+  return DownToFloor(flesh_W, LacksLegs(flesh_W.min().z()) ? kStrideMm : kAsideMm);
 }
 
 Eigen::AlignedBox3d DownToFloor(const Eigen::AlignedBox3d& flesh_W, double beside_mm) {

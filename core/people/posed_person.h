@@ -15,6 +15,9 @@ namespace mocap {
 /// may belong to a lost limb.
 inline constexpr double kExplainsMm = 80;
 
+/// A carved-away limb may be this far from its prediction or from the flesh.
+inline constexpr double kAsideMm = 100;
+
 /// A predicted body in a frame, for comparison with the evidence.
 struct PosedPerson {
   std::vector<PosedCapsule> capsules;
@@ -25,6 +28,10 @@ struct PosedPerson {
 
 /// Sets the capsules for a body and a pose; reuses the memory of `person`.
 void PosePerson(const BodyModel& body, const PoseState& pose, double reach_mm, PosedPerson& person);
+
+/// Returns the distance of a point from a body, at most the person's reach.
+/// @param enough_mm  any distance below this will do.
+double DistanceTo(const PosedPerson& person, const Vector3& p_W, double enough_mm);
 
 /// Returns a room's flesh with the doubtful cells that are within the bodies of people who are not
 /// lost. Where there are none, that is the room's own.

@@ -5,7 +5,7 @@
 #include <functional>
 #include <memory>
 
-#include "core/people/side_search.h"
+#include "core/side_search.h"
 
 namespace mocap {
 

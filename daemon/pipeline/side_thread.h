@@ -7,7 +7,7 @@
 #include <string>
 #include <thread>
 
-#include "core/people/side_search.h"
+#include "core/side_search.h"
 #include "daemon/pipeline/spsc_queue.h"
 #include "daemon/pipeline/thread_group.h"
 

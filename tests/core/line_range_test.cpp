@@ -1,4 +1,4 @@
-#include "core/line_range.h"
+#include "core/reconstruction/silhouette/line_range.h"
 
 #include <gtest/gtest.h>
 

@@ -13,7 +13,6 @@
 #include "config/load_config.h"
 #include "core/body/stance.h"
 #include "core/people/people_capture.h"
-#include "core/people/witnesses.h"
 #include "core/surface_capture.h"
 #include "daemon/pipeline/capture_beside.h"
 #include "tests/support/seen_body.h"
