@@ -33,6 +33,9 @@ struct StateLimits {
   double stranger_nats = 6.9;
 };
 constexpr StateLimits kLimits{};
+// Joints lie elsewhere in a person than in the body by about this, which no fit shows. With it, 88
+// to 100 % of the errors of people like ours are within two deviations (`mocap evaluate`).
+constexpr double kBodyStd_mm = 15;
 
 // Computes the covariance of a point of the body from that of the joints that move it.
 Matrix3 CovarianceOf(const BodyModel& body, const Posture& posture, Point point,
@@ -209,6 +212,7 @@ class SurfaceCapture : public MotionCapture {
     MeasureUncertainty(body, filter);
     if (result_.state != CaptureState::kTracking) steady_.Reset();
     result_.pose = steady_.Follow(body, filter, result_.point_std_mm, dt_s);
+    for (double& std_mm : result_.point_std_mm) std_mm = std::hypot(std_mm, kBodyStd_mm);
     result_.points_W = body.PointsAt(body.PostureAt(result_.pose));
     result_.residual_mm = hypotheses_.best().fitness.surface_mm;
     if (result_.state != CaptureState::kLost) ReportDoubt();
