@@ -37,11 +37,14 @@ bool Touches(const GrazingRay& ray, const FleshShare& share) {
   const VoxelGrid& flesh = share.flesh;
   const Vector3 eye_W = ray.eye_W - kInward * flesh.voxel_mm() * ray.outward_W;
   const auto range = RangeWithin(share.box_W, eye_W, ray.direction_W);
-  for (double mm = range ? range->from_mm : 0; range && mm < range->to_mm;
-       mm += kStep * flesh.voxel_mm()) {
-    const Vector3 p = (eye_W + mm * ray.direction_W - flesh.origin_W()) / flesh.voxel_mm();
-    const Eigen::Vector3i at = p.array().floor().cast<int>();
+  if (!range) return false;
+  const Vector3 begin_W = eye_W + range->from_mm * ray.direction_W;
+  Vector3 place = (begin_W - flesh.origin_W()) / flesh.voxel_mm();
+  const double step_mm = kStep * flesh.voxel_mm();
+  for (double mm = range->from_mm; mm < range->to_mm; mm += step_mm) {
+    const Eigen::Vector3i at = place.array().floor().cast<int>();
     if (flesh.Contains(at.x(), at.y(), at.z()) && flesh.Test(at.x(), at.y(), at.z())) return true;
+    place += kStep * ray.direction_W;
   }
   return false;
 }
