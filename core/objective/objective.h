@@ -25,7 +25,6 @@ struct Fitness {
   double unexplained_share = 0;  ///< Of the rays: no part is near.
   double surface_mm = 0;         ///< Mean distance of the voxels' surface.
   double misfit = 0;             ///< 0 to 1; see ContactNats.
-
   /// How far the trunk is turned against the feet: 0 to 1, the opposite way.
   double backwards = 0;
 
