@@ -41,6 +41,8 @@ class SegmentMatcher {
   /// @param reach_mm  a capsule with this mismatch or more does not fit a segment.
   /// @return  one match per segment, valid until the next call.
   const std::vector<SegmentMatch>& Match(std::span<const PosedCapsule> capsules, double reach_mm);
+  /// Those of the last call.
+  const std::vector<SegmentMatch>& matches() const { return matches_; }
 
   static constexpr int kMostCapsules = kernels::kMostCapsules;
 

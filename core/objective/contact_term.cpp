@@ -70,8 +70,7 @@ void ContactTerm::TakeOpen(ContactTerm& whole, const PosedBody& posed, CapsuleSe
 const std::vector<SegmentMatch>& ContactTerm::Match(const PosedBody& posed) {
   posed_.clear();
   for (const int i : moving_) posed_.push_back(posed.capsules()[i]);
-  matches_ = &matcher_.Match(moving_.empty() ? posed.capsules() : posed_, kReach_mm);
-  return *matches_;
+  return matcher_.Match(moving_.empty() ? posed.capsules() : posed_, kReach_mm);
 }
 
 double ContactTerm::SavedBy(const Residual& residual) const {
@@ -144,7 +143,7 @@ void ContactTerm::Linearize(const PosedBody& posed, const Things& things, Linear
 CapsuleSet ContactTerm::CarvedAway() const {
   std::array<int, SegmentMatcher::kMostCapsules> grazing{};
   for (std::size_t i = 0; i < contacts_.size(); ++i) {
-    const SegmentMatch& match = (*matches_)[i];
+    const SegmentMatch& match = matcher_.matches()[i];
     if (contacts_[i].misses_hull && match.capsule >= 0 &&
         std::abs(match.distance.outside_mm) < kGrazes_mm)
       ++grazing[moving_.empty() ? match.capsule : moving_[match.capsule]];

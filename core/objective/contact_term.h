@@ -72,7 +72,6 @@ class ContactTerm {
 
   std::vector<Contact> contacts_;
   SegmentMatcher matcher_;
-  const std::vector<SegmentMatch>* matches_ = nullptr;  ///< Of the last pose.
   ResidualNoise of_rays_, of_surface_;
   int rays_ = 0, voxels_ = 0;
   std::vector<int> moving_;      ///< Capsules; empty: all.

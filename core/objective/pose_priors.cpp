@@ -11,8 +11,8 @@ namespace {
 // Costs of what people hardly do.
 struct HabitCosts {
   double limit_std_rad = 0.01;  // Of angles beyond a joint's limits.
-  // Odds of 30 to 1, of which a frame counts a quarter (kFrameWorth). With half of it, children in
-  // hats and coats stood on their heads; with more, handstands of children are not found.
+  // Odds of 30 to 1 where a frame counts a quarter (kFrameWorth). With half of it, a child in
+  // helmet and coat was tracked upside down; with a quarter more, a child's handstand is not found.
   double upside_down_nats = 13.8;
   double against_feet_nats = 4.8;  // Of 121 pairs of feet, one pointed backwards (feet.h).
   // Men are 1756 mm tall with a standard deviation of 67 (Gordon et al. 1989), and taller in a

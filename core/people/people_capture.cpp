@@ -174,9 +174,9 @@ bool PeopleCapture::IsAlone(const VoxelGrid& grid) {
 // Flesh beside the box of a single person is nobody's, though the grid may contain it.
 void PeopleCapture::UpdateAlone(const Sighting& room, std::int64_t capture_ns,
                                 UpdateObserver* observer) {
-  CopyBlock(room.flesh, CellsWithin(room.flesh, room.box_W), flesh_of_one_);
+  const VoxelGrid& flesh = VoxelsWithin(room.flesh, room.box_W, flesh_of_one_);
   Member& member = *members_.front();
-  member.capture->Update({flesh_of_one_, thinned_, room.box_W}, capture_ns, observer);
+  member.capture->Update({flesh, thinned_, room.box_W}, capture_ns, observer);
   member.seen_s = now_s_;
 }
 

@@ -41,6 +41,14 @@ void CopyBlock(const VoxelGrid& grid, const Eigen::AlignedBox3i& cells, VoxelGri
   }
 }
 
+const VoxelGrid& VoxelsWithin(const VoxelGrid& grid, const Eigen::AlignedBox3d& box_W,
+                              VoxelGrid& block) {
+  const Eigen::AlignedBox3i cells = CellsWithin(grid, box_W);
+  if (!cells.isEmpty() && cells.sizes() + Eigen::Vector3i::Ones() == grid.size()) return grid;
+  CopyBlock(grid, cells, block);
+  return block;
+}
+
 Eigen::AlignedBox3i CellsWithin(const VoxelGrid& grid, const Eigen::AlignedBox3d& box_W) {
   if (box_W.isEmpty()) return {};
   const Eigen::Array3d first = (box_W.min() / grid.voxel_mm()).array().floor();

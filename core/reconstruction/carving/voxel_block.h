@@ -26,6 +26,11 @@ void ForEachVoxel(const VoxelGrid& grid, const Visit& visit) {
 /// `block`. Without cells, the block has no voxels. @pre they lie within the grid.
 void CopyBlock(const VoxelGrid& grid, const Eigen::AlignedBox3i& cells, VoxelGrid& block);
 
+/// Returns the voxels of a grid within a box [mm, world]: the grid itself, if all of it is within.
+/// @param block  memory for the result.
+const VoxelGrid& VoxelsWithin(const VoxelGrid& grid, const Eigen::AlignedBox3d& box_W,
+                              VoxelGrid& block);
+
 /// Returns the cells of a grid that a box touches [mm, world]; empty if there are none.
 Eigen::AlignedBox3i CellsWithin(const VoxelGrid& grid, const Eigen::AlignedBox3d& box_W);
 
