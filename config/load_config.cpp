@@ -10,7 +10,7 @@
 #include "config/toml_section.h"
 #include "core/errors.h"
 #include "core/people/people_capture.h"
-#include "drivers/simulation/company.h"
+#include "drivers/virtual_studio/motions/company.h"
 
 namespace mocap {
 namespace {

@@ -9,6 +9,7 @@
 #include "core/errors.h"
 #include "drivers/nearest_name.h"
 #include "drivers/quoted.h"
+#include "drivers/simulation/simulated_studio.h"
 #include "drivers/take/input_file.h"
 #include "drivers/take/take_layout.h"
 

@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "config/config.h"
-#include "drivers/simulation/simulated_studio.h"
 #include "drivers/studio.h"
+#include "drivers/virtual_studio/studio_options.h"
 
 namespace mocap {
 

@@ -23,15 +23,15 @@ inline constexpr std::array<std::string_view, 4> kCaptureStateNames = {"searchin
                                                                        "tracking", "lost"};
 
 /// The evidence of one frame set for a person, and for all people nearby. Borrowed.
-struct Sighting {
+struct Observation {
   /// A single person, anywhere in the grid.
-  Sighting(const VoxelGrid& grid, std::span<const Outline> rays)
-      : Sighting(grid, rays, {grid.origin_W(), grid.end_W()}) {}
+  Observation(const VoxelGrid& grid, std::span<const Outline> rays)
+      : Observation(grid, rays, {grid.origin_W(), grid.end_W()}) {}
   /// A single person within a box.
-  Sighting(const VoxelGrid& grid, std::span<const Outline> rays, const Eigen::AlignedBox3d& box)
-      : Sighting(grid, rays, box, grid, rays) {}
-  Sighting(const VoxelGrid& grid, std::span<const Outline> rays, const Eigen::AlignedBox3d& box,
-           const VoxelGrid& everybody, std::span<const Outline> all_rays)
+  Observation(const VoxelGrid& grid, std::span<const Outline> rays, const Eigen::AlignedBox3d& box)
+      : Observation(grid, rays, box, grid, rays) {}
+  Observation(const VoxelGrid& grid, std::span<const Outline> rays, const Eigen::AlignedBox3d& box,
+              const VoxelGrid& everybody, std::span<const Outline> all_rays)
       : flesh(grid), outlines(rays), box_W(box), room(everybody), borders(all_rays) {}
 
   const VoxelGrid& flesh;             ///< The person's voxels.
@@ -88,7 +88,7 @@ class MotionCapture {
   /// Processes the next frame set.
   /// @param capture_ns  time of exposure; one before the last counts as the same time.
   /// @param observer    told of the stages, may be null; the result does not depend on it.
-  virtual const CaptureResult& Update(const Sighting& sighting, std::int64_t capture_ns,
+  virtual const CaptureResult& Update(const Observation& observation, std::int64_t capture_ns,
                                       UpdateObserver* observer = nullptr) = 0;
 
   /// Forgets the person: the next person is measured.

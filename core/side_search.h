@@ -16,7 +16,7 @@ class SideSearch {
   virtual ~SideSearch() = default;
 
   /// Copies what a set shows. May skip sets that tracking does not need.
-  virtual void See(const Sighting& sighting, std::int64_t capture_ns) = 0;
+  virtual void See(const Observation& observation, std::int64_t capture_ns) = 0;
   /// Whether the capture has processed everything. It may then be used until the next See.
   virtual bool HasCaughtUp() const = 0;
 };

@@ -50,13 +50,13 @@ class SurfaceCapture : public MotionCapture {
   explicit SurfaceCapture(const BodyTable& table)
       : scheduler_(table), nobody_(table, AverageSizes(1750)) {}
 
-  const CaptureResult& Update(const Sighting& sighting, std::int64_t capture_ns,
+  const CaptureResult& Update(const Observation& observation, std::int64_t capture_ns,
                               UpdateObserver* observer) override {
     // The clock may be set back.
     const std::int64_t passed_ns = last_ns_ ? std::max<std::int64_t>(0, capture_ns - *last_ns_) : 0;
     const double dt_s = static_cast<double>(passed_ns) * 1e-9;
     last_ns_ = capture_ns;
-    evidence_.Gather(sighting);
+    evidence_.Gather(observation);
     if (observer) observer->OnStageEnd(UpdateStage::kLabel);
     result_.body_changed = false;
     result_.voxels = evidence_.cloud.size();

@@ -251,7 +251,7 @@ std::string FindingsText(const std::vector<Finding>& findings) {
   std::string text;
   for (const Finding& finding : findings)
     text += std::string(NameOf(finding.severity)) + ": " + finding.text + '\n';
-  return text + Verdict(findings) + '\n';
+  return text + Conclusion(findings) + '\n';
 }
 
 void RequireUsable(const std::filesystem::path& file, const std::vector<Finding>& findings) {
@@ -312,7 +312,7 @@ std::string FitJson(const StudioFit& fit, const std::vector<Finding>& findings) 
     list.Add(std::to_string(i + 1),
              std::string(NameOf(findings[i].severity)) + ": " + findings[i].text);
   json.Add("findings", list);
-  json.Add("verdict", Verdict(findings));
+  json.Add("verdict", Conclusion(findings));
   return json.Text() + '\n';
 }
 

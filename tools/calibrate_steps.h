@@ -53,7 +53,7 @@ void SetWorld(const CalibrateArguments& arguments, StudioFit& fit);
 /// Findings of CheckFit and of a distance measured by tape.
 std::vector<Finding> CheckAll(const CalibrateArguments& arguments, const StudioFit& fit);
 
-/// The findings, one a line, and the verdict.
+/// The findings, one a line, and the conclusion.
 std::string FindingsText(const std::vector<Finding>& findings);
 
 /// Makes the command fail if a calibration should not be used.

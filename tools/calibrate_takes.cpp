@@ -119,7 +119,8 @@ std::string ShiftText(const std::vector<CameraShift>& shifts) {
                 ? fmt::format("{:<12}sees too little of the person for a check\n", s.camera)
                 : fmt::format("{:<12}{:>7.1f}  {:<8}{:>16}{:>9.1f}{:>7.1f} %{:>7.0f} %\n", s.camera,
                               s.shift_px.norm(), Directions(s.shift_px),
-                              fmt::format("({:+.1f}, {:+.1f})", Tenths(s.shift_px.x()), Tenths(s.shift_px.y())),
+                              fmt::format("({:+.1f}, {:+.1f})", Tenths(s.shift_px.x()),
+                                          Tenths(s.shift_px.y())),
                               s.spread_px, Tenths(100 * s.growth), 100 * s.overlap);
   }
   return text;
@@ -148,7 +149,7 @@ std::string ShiftJson(const RefinedStudio& refined) {
   return json.Text() + '\n';
 }
 
-std::string VerdictText(const RefinedStudio& refined) {
+std::string ConclusionText(const RefinedStudio& refined) {
   std::string text;
   for (const std::string& change : ChangesOf(refined)) text += change + '\n';
   return text.empty() ? "no camera has moved\n" : text;
@@ -203,7 +204,7 @@ void RunHealth(const TakeArguments& a) {
   }
   const RefinedStudio refined = Refined(a);
   const std::string text =
-      a.json ? ShiftJson(refined) : ShiftText(refined.before) + VerdictText(refined);
+      a.json ? ShiftJson(refined) : ShiftText(refined.before) + ConclusionText(refined);
   std::fputs(text.c_str(), stdout);
   if (!a.note.empty()) {
     CalibrationRecord record = LoadCalibrationRecord(a.note);
@@ -223,7 +224,7 @@ void RunRefine(const TakeArguments& a) {
   record.offsets = OffsetsOf(refined.after, {});
   WriteCalibration(a.out, refined.cameras, record);
   const bool is_own = std::filesystem::equivalent(a.out, TakeLayout{a.take}.Calibration());
-  std::string text = ShiftText(refined.before) + VerdictText(refined);
+  std::string text = ShiftText(refined.before) + ConclusionText(refined);
   if (!refined.moved.empty()) text += "after:\n" + ShiftText(refined.after);
   text += fmt::format("written: {}{}\n", a.out.string(), is_own ? ", the take's own" : "");
   std::fputs((a.json ? ShiftJson(refined) : text).c_str(), stdout);

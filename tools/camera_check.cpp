@@ -148,7 +148,7 @@ SetSummary SummarizeSets(const std::vector<CameraRun>& runs) {
                             Synchronizer::kWaitForever);
   std::vector<std::size_t> next(runs.size());
   std::vector<double> spreads_ms;
-  for (auto verdict = Synchronizer::Verdict::kLetGo; verdict != Synchronizer::Verdict::kWait;) {
+  for (auto decision = Synchronizer::Decision::kLetGo; decision != Synchronizer::Decision::kWait;) {
     bool any = false;
     for (std::size_t i = 0; i < runs.size(); ++i) {
       const int camera = static_cast<int>(i);
@@ -160,8 +160,8 @@ SetSummary SummarizeSets(const std::vector<CameraRun>& runs) {
       any |= synchronizer.has_front(camera);
     }
     if (!any) break;
-    verdict = synchronizer.Decide();
-    if (verdict != Synchronizer::Verdict::kSet) continue;
+    decision = synchronizer.Decide();
+    if (decision != Synchronizer::Decision::kSet) continue;
     ++summary.sets;
     if (std::ranges::count(synchronizer.members(), true) < cameras) continue;
     ++summary.complete;

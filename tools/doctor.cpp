@@ -24,13 +24,13 @@ struct DoctorOptions {
   std::filesystem::path socket;
 };
 
-const char* MarkOf(Verdict verdict) {
-  switch (verdict) {
-    case Verdict::kGood:
+const char* MarkOf(Grade grade) {
+  switch (grade) {
+    case Grade::kGood:
       return "good  ";
-    case Verdict::kAdvice:
+    case Grade::kAdvice:
       return "advice";
-    case Verdict::kBad:
+    case Grade::kBad:
       return "BAD   ";
   }
   return "";
@@ -62,10 +62,10 @@ void Doctor(const DoctorOptions& options) {
       options.socket.empty() ? config.service.control.socket : options.socket, starter));
   std::ranges::move(CheckNodes(config), std::back_inserter(diagnoses));
   for (const Diagnosis& diagnosis : diagnoses) {
-    std::printf("%s  %s\n", MarkOf(diagnosis.verdict), Printable(diagnosis.what).c_str());
+    std::printf("%s  %s\n", MarkOf(diagnosis.grade), Printable(diagnosis.what).c_str());
     if (!diagnosis.fix.empty()) std::printf("        -> %s\n", Printable(diagnosis.fix).c_str());
   }
-  const auto bad = std::ranges::count(diagnoses, Verdict::kBad, &Diagnosis::verdict);
+  const auto bad = std::ranges::count(diagnoses, Grade::kBad, &Diagnosis::grade);
   if (bad > 0) throw std::runtime_error(Counted(bad, "problem") + " must be fixed");
 }
 

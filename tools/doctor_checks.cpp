@@ -93,14 +93,14 @@ std::optional<double> DiskSpeed(const std::filesystem::path& folder) {
 
 Diagnosis CheckDevice(const std::string& name, const std::filesystem::path& device) {
   if (!std::filesystem::exists(device)) {
-    return {Verdict::kBad, fmt::format("{}: {} not found", name, device.string()),
+    return {Grade::kBad, fmt::format("{}: {} not found", name, device.string()),
             "plug the camera in; ls /dev/v4l/by-id lists what is connected"};
   }
   if (access(device.c_str(), R_OK | W_OK) != 0) {
-    return {Verdict::kBad, fmt::format("{}: no permission to use {}", name, device.string()),
+    return {Grade::kBad, fmt::format("{}: no permission to use {}", name, device.string()),
             "as root: adduser USER video, then log in again"};
   }
-  return {Verdict::kGood, fmt::format("{}: {} is there", name, device.string()), ""};
+  return {Grade::kGood, fmt::format("{}: {} is there", name, device.string()), ""};
 }
 
 }  // namespace
@@ -109,12 +109,12 @@ Diagnosis CheckMessages(const std::string& url) {
   try {
     const LcmProvider provider = ParseLcmUrl(url).provider;
     if (provider == LcmProvider::kMemory) {
-      return {Verdict::kBad, "messages on " + url + " do not leave mocapd",
+      return {Grade::kBad, "messages on " + url + " do not leave mocapd",
               "set lcm.url to one like udpm://239.255.76.67:7667?ttl=0"};
     }
     if (provider == LcmProvider::kFile) {
       CheckLcm(url);
-      return {Verdict::kGood, "the log " + url + " can be written", ""};
+      return {Grade::kGood, "the log " + url + " can be written", ""};
     }
     const std::unique_ptr<lcm::LCM> receiver = OpenLcmToListen(url);
     const std::unique_ptr<lcm::LCM> sender = OpenLcm(url);
@@ -126,19 +126,19 @@ Diagnosis CheckMessages(const std::string& url) {
     sender->publish(kEchoChannel, greeting, sizeof greeting);
     const std::int64_t end_ns = SteadyNs() + std::int64_t{kEchoTimeoutMs} * 1'000'000;
     while (!heard && SteadyNs() < end_ns) receiver->handleTimeout(kEchoTimeoutMs / 10);
-    if (heard) return {Verdict::kGood, "messages on " + url + " arrive", ""};
+    if (heard) return {Grade::kGood, "messages on " + url + " arrive", ""};
   } catch (const SetupError& error) {
-    return {Verdict::kBad, error.what(), ""};
+    return {Grade::kBad, error.what(), ""};
   }
-  return {Verdict::kBad, "messages on " + url + " do not arrive",
+  return {Grade::kBad, "messages on " + url + " do not arrive",
           "check the firewall: UDP to that address has to pass"};
 }
 
 Diagnosis CheckSocketBuffers() {
   const std::int64_t most = NumberIn("/proc/sys/net/core/rmem_max").value_or(0);
   const std::string what = fmt::format("sockets may buffer {} kB", most / 1024);
-  if (most >= kLeastSocketBuffer) return {Verdict::kGood, what, ""};
-  return {Verdict::kAdvice, what + "; voxels and network cameras lose packets",
+  if (most >= kLeastSocketBuffer) return {Grade::kGood, what, ""};
+  return {Grade::kAdvice, what + "; voxels and network cameras lose packets",
           fmt::format("as root: sysctl -w net.core.rmem_max={}; the package keeps it in "
                       "/usr/lib/sysctl.d/60-mocapd.conf",
                       kLeastSocketBuffer)};
@@ -156,29 +156,29 @@ Diagnosis CheckLimits(const RealtimeConfig& config, Starter starter) {
   const std::uint64_t locked = unit_limit("LimitMEMLOCK").value_or(OwnLimit(RLIMIT_MEMLOCK));
   const bool may_lock = !config.lock_memory || locked == RLIM_INFINITY;
   if (may_go_first && may_lock) {
-    return {Verdict::kGood, "limits allow real-time priority and the settings of [realtime]", ""};
+    return {Grade::kGood, "limits allow real-time priority and the settings of [realtime]", ""};
   }
   const std::string fix =
       by_systemd
           ? "systemctl edit mocapd: [Service] LimitRTPRIO=49 LimitMEMLOCK=infinity"
           : "rtprio 49 and memlock unlimited in /etc/security/limits.conf, then log in again";
   if (may_lock && !config.priority) {
-    return {Verdict::kAdvice,
+    return {Grade::kAdvice,
             "limits do not allow real-time priority; recordings and other programs delay poses",
             fix};
   }
-  return {Verdict::kBad, "limits do not allow the settings of [realtime]", fix};
+  return {Grade::kBad, "limits do not allow the settings of [realtime]", fix};
 }
 
 Diagnosis CheckClock() {
   timex state{};
   if (adjtimex(&state) != TIME_ERROR && (state.status & STA_UNSYNC) == 0) {
-    return {Verdict::kGood,
+    return {Grade::kGood,
             fmt::format("the clock is synchronized, within {:.1f} ms",
                         static_cast<double>(state.esterror) / 1000),
             ""};
   }
-  return {Verdict::kAdvice,
+  return {Grade::kAdvice,
           "the clock is not synchronized; capture times cannot be compared across computers",
           "as root: apt install chrony, or timedatectl set-ntp true"};
 }
@@ -187,9 +187,9 @@ Diagnosis CheckProcessor() {
   const std::optional<std::string> governor =
       FirstLine("/sys/devices/system/cpu/cpu0/cpufreq/scaling_governor");
   if (!governor || *governor == "performance") {
-    return {Verdict::kGood, fmt::format("{} processors", sysconf(_SC_NPROCESSORS_ONLN)), ""};
+    return {Grade::kGood, fmt::format("{} processors", sysconf(_SC_NPROCESSORS_ONLN)), ""};
   }
-  return {Verdict::kAdvice,
+  return {Grade::kAdvice,
           fmt::format("the processor's speed follows its load ({}), which makes latency uneven",
                       *governor),
           "as root: cpupower frequency-set -g performance"};
@@ -199,7 +199,7 @@ Diagnosis CheckDisk(const std::filesystem::path& folder, double keep_free_mb) {
   const std::filesystem::path place = NearestFolder(folder);
   struct statvfs space {};
   if (statvfs(place.c_str(), &space) != 0) {
-    return {Verdict::kBad, place.string() + ": " + std::strerror(errno), "choose another folder"};
+    return {Grade::kBad, place.string() + ": " + std::strerror(errno), "choose another folder"};
   }
   const double free_mb =
       static_cast<double>(space.f_bavail) * static_cast<double>(space.f_frsize) / 1e6;
@@ -210,7 +210,7 @@ Diagnosis JudgeSpace(const std::string& disk, double free_mb, double keep_free_m
                      std::optional<double> speed_mb) {
   const std::string free = fmt::format("{}: {:.1f} GB free", disk, free_mb / 1000);
   if (free_mb < keep_free_mb) {
-    return {Verdict::kBad,
+    return {Grade::kBad,
             fmt::format("{}, and recording.keep_free_mb is {:.0f}: nothing can be recorded", free,
                         keep_free_mb),
             "free some space, or set recording.folder to a folder on another disk"};
@@ -222,15 +222,15 @@ Diagnosis JudgeSpace(const std::string& disk, double free_mb, double keep_free_m
   constexpr double kNeeded_mb = 1.5 * kUsualRecording_mb;
   if (speed_mb && *speed_mb < kNeeded_mb) {
     return {
-        Verdict::kBad, what,
+        Grade::kBad, what,
         fmt::format("use a disk that writes at least {:.0f} MB/s, or recording.codec = \"ffv1\"",
                     kNeeded_mb)};
   }
   if (room_s < kLeastRecording_s) {
-    return {Verdict::kAdvice, what,
+    return {Grade::kAdvice, what,
             "free some space, or set recording.folder to a folder on another disk"};
   }
-  return {Verdict::kGood, what, ""};
+  return {Grade::kGood, what, ""};
 }
 
 std::vector<Diagnosis> CheckCalibration(const Config& config) {
@@ -240,17 +240,17 @@ std::vector<Diagnosis> CheckCalibration(const Config& config) {
   try {
     cameras = LoadCalibration(config.calibration);
   } catch (const SetupError& error) {
-    return {{Verdict::kBad, error.what(), "calibrate again: mocap calibrate studio"}};
+    return {{Grade::kBad, error.what(), "calibrate again: mocap calibrate studio"}};
   }
   std::vector<Diagnosis> diagnoses;
   for (const Finding& finding : CheckPlaces(cameras, true)) {
-    diagnoses.push_back({finding.severity == Severity::kWrong ? Verdict::kBad : Verdict::kAdvice,
+    diagnoses.push_back({finding.severity == Severity::kWrong ? Grade::kBad : Grade::kAdvice,
                          where + ": " + finding.text,
                          "for details: mocap calibrate check " + where});
   }
   if (diagnoses.empty())
     diagnoses.push_back(
-        {Verdict::kGood, where + ": the extrinsics of its cameras are plausible", ""});
+        {Grade::kGood, where + ": the extrinsics of its cameras are plausible", ""});
   return diagnoses;
 }
 
@@ -265,7 +265,7 @@ std::vector<Diagnosis> CheckDevices(const Config& config) {
   }
   const auto usb_mb = NumberIn("/sys/module/usbcore/parameters/usbfs_memory_mb");
   if (config.source.driver == "aravis" && usb_mb && *usb_mb > 0 && *usb_mb < kLeastUsbMegabytes) {
-    diagnoses.push_back({Verdict::kAdvice, fmt::format("USB cameras may buffer {} MB", *usb_mb),
+    diagnoses.push_back({Grade::kAdvice, fmt::format("USB cameras may buffer {} MB", *usb_mb),
                          fmt::format("as root: echo {} > "
                                      "/sys/module/usbcore/parameters/usbfs_memory_mb",
                                      kLeastUsbMegabytes)});
@@ -276,12 +276,12 @@ std::vector<Diagnosis> CheckDevices(const Config& config) {
 Diagnosis CheckControl(const std::filesystem::path& socket, Starter starter) {
   try {
     AskDaemon(socket, "status");
-    return {Verdict::kGood, "mocapd runs and answers", ""};
+    return {Grade::kGood, "mocapd runs and answers", ""};
   } catch (const SetupError& error) {
-    return {Verdict::kBad, "mocapd runs, but you may not control it", error.what()};
+    return {Grade::kBad, "mocapd runs, but you may not control it", error.what()};
   } catch (const std::exception& error) {
     const bool is_service = starter == Starter::kSystemd;
-    return {Verdict::kAdvice, error.what(),
+    return {Grade::kAdvice, error.what(),
             is_service ? "journalctl -u mocapd shows why it stopped" : ""};
   }
 }
@@ -292,16 +292,16 @@ std::vector<Diagnosis> CheckNodes(const Config& config) {
   for (const StudioNode& node : config.nodes) {
     const std::string name = "node " + node.name;
     if (node.control.empty()) {
-      diagnoses.push_back({Verdict::kAdvice, name + " has no control command in [[nodes]]",
+      diagnoses.push_back({Grade::kAdvice, name + " has no control command in [[nodes]]",
                            "see docs/nodes.md: recordings at the studio need it"});
       continue;
     }
     const RemoteAnswer answer = RemoteControl(name, node.control).Ask("status", kPatience);
     const bool is_good = answer.reply && answer.reply->outcome == ControlOutcome::kDone;
     if (is_good) {
-      diagnoses.push_back({Verdict::kGood, name + " answers", ""});
+      diagnoses.push_back({Grade::kGood, name + " answers", ""});
     } else {
-      diagnoses.push_back({Verdict::kBad,
+      diagnoses.push_back({Grade::kBad,
                            answer.reply ? name + ": " + answer.reply->text : answer.problem,
                            "see docs/operating.md, Nodes: requests"});
     }

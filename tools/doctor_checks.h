@@ -10,7 +10,7 @@
 
 namespace mocap {
 
-enum class Verdict {
+enum class Grade {
   kGood,
   kAdvice,  ///< It works, but could work better.
   kBad
@@ -18,7 +18,7 @@ enum class Verdict {
 
 /// Result of one check.
 struct Diagnosis {
-  Verdict verdict = Verdict::kGood;
+  Grade grade = Grade::kGood;
   std::string what;  ///< The finding.
   std::string fix;   ///< What to type or change; empty if good.
 };

@@ -18,13 +18,14 @@
 #include "daemon/base/number_option.h"
 #include "drivers/nearest_name.h"
 #include "drivers/printable_text.h"
-#include "drivers/simulation/company.h"
 #include "drivers/simulation/simulated_board.h"
 #include "drivers/simulation/simulated_studio.h"
 #include "drivers/take/input_file.h"
 #include "drivers/take/picture_coder.h"
 #include "drivers/take/take_writer.h"
 #include "drivers/take/unfinished_folder.h"
+#include "drivers/virtual_studio/motions/company.h"
+#include "drivers/virtual_studio/truth.h"
 #include "tools/stop_on_signals.h"
 
 namespace mocap {

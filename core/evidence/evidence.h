@@ -30,10 +30,10 @@ struct Evidence {
   BoundingEdgeFinder edge_finder;
   FeetFinder feet_finder;
 
-  void Gather(const Sighting& sighting) {
-    cloud.Build(sighting.flesh, sighting.room);
-    borders.assign(sighting.borders.begin(), sighting.borders.end());
-    edge_finder.Find(cloud, sighting.outlines, sighting.box_W, edges);
+  void Gather(const Observation& observation) {
+    cloud.Build(observation.flesh, observation.room);
+    borders.assign(observation.borders.begin(), observation.borders.end());
+    edge_finder.Find(cloud, observation.outlines, observation.box_W, edges);
     toes_W = feet_finder.ToesBeforeShins(cloud);
   }
 

@@ -25,7 +25,7 @@ void Hypothesis::Fit(Objective& objective) {
       },
       Iterations{});
   fitness = objective.At(body, filter.pose(), things);
-  // What a frame does not show is put down for good.
+  // A thing that the frame does not show is dropped and does not come back.
   things = fitness.things;
 }
 

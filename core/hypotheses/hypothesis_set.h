@@ -13,7 +13,7 @@ namespace mocap {
 inline constexpr double kFrameWorth = 0.25;
 
 /// A few explanations of one person. One frame does not tell arms that cross from arms that touch,
-/// whoever stands in a skirt from behind, or a limb from a shadow of the hull; some frames do.
+/// the front of a person in a skirt from the back, or a limb from a ghost; some frames do.
 ///
 /// Each hypothesis follows the person with its own filter. Its -log p is integrated over capture
 /// time: successive frames err alike, so that all frames within 0.1 s count as one. One of two

@@ -18,7 +18,8 @@ struct RefinedSize {
 
 // Lengths differ among people of a stature by about three percent, and widths by more (ANSUR,
 // Gordon et al. 1989). Clothes and hair add to that. The hips stay unchanged: they lie so deep in
-// flesh that contours do not show them. The drape comes last: whoever wears none gets none.
+// flesh that contours do not show them. The sizes of a drape come last: they are left out for a
+// person without one.
 constexpr std::array<RefinedSize, 19> kRefined = {{{&BodySizes::torso, 0.03},
                                                    {&BodySizes::torso_width, 0.12},
                                                    {&BodySizes::torso_depth, 0.15},

@@ -39,14 +39,14 @@ class MikicCapture::Impl {
  public:
   explicit Impl(const BodyTable& table) : body_(table, AverageSizes(1750)) {}
 
-  const CaptureResult& Update(const Sighting& sighting, std::int64_t capture_ns,
+  const CaptureResult& Update(const Observation& observation, std::int64_t capture_ns,
                               UpdateObserver* observer) {
     // The clock may be set back.
     const std::int64_t passed_ns = last_ns_ ? std::max<std::int64_t>(0, capture_ns - *last_ns_) : 0;
     last_ns_ = capture_ns;
     const double dt_s = static_cast<double>(passed_ns) * 1e-9;
     result_.body_changed = false;
-    cloud_.Build(sighting.flesh, sighting.room);
+    cloud_.Build(observation.flesh, observation.room);
     result_.voxels = cloud_.size();
     const bool somebody = cloud_.volume_litres() >= kLeastLitres;
     if (!tracked_) {
@@ -171,9 +171,9 @@ class MikicCapture::Impl {
 MikicCapture::MikicCapture(const BodyTable& table) : impl_(std::make_unique<Impl>(table)) {}
 MikicCapture::~MikicCapture() = default;
 
-const CaptureResult& MikicCapture::Update(const Sighting& sighting, std::int64_t capture_ns,
+const CaptureResult& MikicCapture::Update(const Observation& observation, std::int64_t capture_ns,
                                           UpdateObserver* observer) {
-  return impl_->Update(sighting, capture_ns, observer);
+  return impl_->Update(observation, capture_ns, observer);
 }
 void MikicCapture::Forget() { impl_->StartOver({}); }
 void MikicCapture::Expect(const BodySizes& sizes) { impl_->StartOver(sizes); }

@@ -28,7 +28,7 @@ class MikicCapture : public MotionCapture {
   explicit MikicCapture(const BodyTable& table);
   ~MikicCapture() override;
 
-  const CaptureResult& Update(const Sighting& sighting, std::int64_t capture_ns,
+  const CaptureResult& Update(const Observation& observation, std::int64_t capture_ns,
                               UpdateObserver* observer) override;
   void Forget() override;
   void Expect(const BodySizes& sizes) override;

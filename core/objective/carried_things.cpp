@@ -12,7 +12,7 @@ struct ThingSizes {
   double pack_mm = 280, pack_side_mm = 30;  // Behind the spine, and beside the trunk.
   // Around a hanging bag, and its length as a share of the stature.
   double bag_mm = 150, bag_share = 0.25;
-  double seat_share = 0.35;    // A wheel's far end from the hips, likewise.
+  double seat_share = 0.35;    // From the hips to a wheel's far end, of the stature.
   double above_hips_mm = 100;  // Armrests and wheels rise above the hip joints.
   // A thigh is level with a smaller slope; a trunk is upright and a forearm hangs with a greater.
   double level = 0.6, upright = 0.7;

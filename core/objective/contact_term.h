@@ -75,7 +75,7 @@ class ContactTerm {
   ResidualNoise of_rays_, of_surface_;
   int rays_ = 0, voxels_ = 0;
   std::vector<int> moving_;      ///< Capsules; empty: all.
-  std::vector<double> rest_mm_;  ///< Distance of each contact from the rest of the body, likewise.
+  std::vector<double> rest_mm_;  ///< Distance of each contact from the other capsules.
   std::vector<PosedCapsule> posed_;
   std::vector<std::pair<Thing, Residual>> of_things_;
 };

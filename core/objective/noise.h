@@ -14,7 +14,7 @@ inline constexpr double kReach_mm = 150;
 
 /// Rays that graze the person, about the body's surface.
 inline constexpr ResidualNoise kRayNoise{.freedom = 1.8, .inside_mm = 9, .outside_mm = 16};
-/// Voxels of the hull's surface, likewise.
+/// Voxels of the hull's surface, about the body's surface.
 inline constexpr ResidualNoise kSurfaceNoise{.freedom = 4.6, .inside_mm = 12.7, .outside_mm = 32.5};
 /// Flesh beyond the border of a silhouette; for each camera, because cameras show the same flesh.
 inline constexpr ResidualNoise kBorderNoise{

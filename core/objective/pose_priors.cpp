@@ -16,8 +16,8 @@ struct HabitCosts {
   double upside_down_nats = 13.8;
   double against_feet_nats = 4.8;  // Of 121 pairs of feet, one pointed backwards (feet.h).
   // Men are 1756 mm tall with a standard deviation of 67 (Gordon et al. 1989), and taller in a
-  // hull, by hair and shoes. Whoever sits would otherwise be taken for a giant in the chair. Women
-  // and children are shorter: nobody costs more for that.
+  // hull, by hair and shoes. Without it, a seated person is fitted as a giant who stands in
+  // the chair. Short people are no less probable: women and children are many.
   double tall_mm = 1800, tall_std_mm = 80;
 };
 constexpr HabitCosts kHabits{};

@@ -35,7 +35,7 @@ struct Member {
   std::optional<double> waits_since_s;  ///< For the search.
   /// Entered from outside the covered area, or when nobody else was tracked yet.
   bool has_come = false;
-  double seen_s = 0;      ///< Last time with enough witnesses.
+  double seen_s = 0;      ///< Last time that enough cameras showed the person.
   double strayed_mm = 0;  ///< How far the person may have gone since they were tracked.
   /// What this frame shows; null without flesh.
   const FleshShare* flesh = nullptr;

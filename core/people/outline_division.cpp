@@ -11,7 +11,7 @@ namespace {
 // Beyond this mismatch a body certainly does not explain a ray.
 constexpr double kSurelyNotMm = 1.5 * kExplainsMm;
 // A camera with this many rays of a person shows that person.
-constexpr int kRaysOfWitness = 6;
+constexpr int kRaysThatShow = 6;
 
 // How far a ray passes from a body's surface. One of the opposite direction is not explained.
 double MismatchOf(const GrazingRay& ray, const LineRange& range, const PosedPerson& person) {
@@ -59,7 +59,7 @@ void OutlineDivision::Divide(std::span<const Outline> outlines, std::span<const 
     boxes_W_.push_back(AroundStranger(stranger.box_W));
   shares_.resize(boxes_W_.size());
   for (OutlineShare& share : shares_) {
-    share.witnesses = 0;
+    share.cameras = 0;
     for (std::vector<Outline>* const rays : {&share.own, &share.near}) {
       rays->resize(outlines.size());
       for (Outline& outline : *rays) outline.clear();
@@ -69,7 +69,7 @@ void OutlineDivision::Divide(std::span<const Outline> outlines, std::span<const 
     sole_.assign(shares_.size(), 0);
     for (const GrazingRay& ray : outlines[camera]) DivideRay(ray, camera, people, flesh);
     for (std::size_t i = 0; i < shares_.size(); ++i)
-      shares_[i].witnesses += sole_[i] >= kRaysOfWitness;
+      shares_[i].cameras += sole_[i] >= kRaysThatShow;
   }
 }
 
@@ -92,8 +92,8 @@ void OutlineDivision::DivideRay(const GrazingRay& ray, std::size_t camera,
   Assign(ray, camera, people.size());
 }
 
-// Gives a ray to whom it grazes best, among those whose flesh it touches. It shows nobody if it may
-// be another's, but a stranger takes no witness from a known person.
+// Gives a ray to whom it grazes best, among those whose flesh it touches. A ray that may be
+// another's does not count as showing anybody, but a stranger takes none from a known person.
 void OutlineDivision::Assign(const GrazingRay& ray, std::size_t camera, std::size_t people) {
   const auto best = std::ranges::min_element(passed_, {}, [](const Passed& passed) {
     return std::pair(!passed.touches, passed.mismatch_mm);

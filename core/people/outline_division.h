@@ -16,7 +16,7 @@ struct OutlineShare {
   std::vector<Outline> own;   ///< Those that graze the person; one outline per camera.
   std::vector<Outline> near;  ///< Those that pass near, whomever they graze.
   /// Cameras that show the person where nobody else is.
-  int witnesses = 0;
+  int cameras = 0;
 };
 
 /// Divides the rays that graze the people in a room. Reuses its memory.

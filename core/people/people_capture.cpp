@@ -16,11 +16,11 @@ struct PeopleLimits {
   // Flesh this close to a predicted body may be its own, and farther away after a time without
   // tracking, at the speed of a walk, up to a stride.
   double reach_mm = 220, walk_mm_s = 1000;
-  // Cameras that show a newcomer where nobody else is; with few cameras, all but one. A person with
-  // fewer than the least is none.
-  int least_witnesses = 2, witnesses = 4;
-  // Whoever is not seen for this long has left. Whoever is not shown completely is searched for
-  // after it.
+  // Cameras that must show a newcomer where nobody else is; with few cameras, all but one. A person
+  // whom fewer than the least show is dropped.
+  int least_cameras = 2, cameras = 4;
+  // A person who is not seen for this long has left. One who is not seen completely is searched for
+  // after this time.
   double brief_s = 0.3;
   // Somebody who was not seen entering counts as a person only after this time.
   double patience_s = 1;
@@ -31,8 +31,8 @@ struct PeopleLimits {
 };
 constexpr PeopleLimits kLimits{};
 
-int WitnessesWanted(std::size_t cameras) {
-  return std::clamp(static_cast<int>(cameras) - 1, kLimits.least_witnesses, kLimits.witnesses);
+int CamerasWanted(std::size_t cameras) {
+  return std::clamp(static_cast<int>(cameras) - 1, kLimits.least_cameras, kLimits.cameras);
 }
 
 // Whether enough cameras have a whole person in their pictures, so that they do not show only a
@@ -44,7 +44,7 @@ bool IsCovered(const Eigen::AlignedBox3d& flesh_W, double beside_mm,
   box_W = {box_W.min() - beside, box_W.max() + beside};
   const auto seeing =
       std::ranges::count_if(eyes, [&](const CameraEye& eye) { return eye.SeesAllWithin(box_W); });
-  return seeing >= WitnessesWanted(eyes.size());
+  return seeing >= CamerasWanted(eyes.size());
 }
 
 }  // namespace
@@ -94,12 +94,12 @@ void PeopleCapture::Call(int id, std::string_view name) {
     if (id > 0 && member->id == id) member->SetName(name, 1);
 }
 
-void PeopleCapture::Update(const Sighting& room, std::span<const CameraEye> eyes,
+void PeopleCapture::Update(const Observation& room, std::span<const CameraEye> eyes,
                            std::int64_t capture_ns, UpdateObserver* observer) {
   PassTime(capture_ns);
   BringBack();
   PoseMembers(capture_ns);
-  const Sighting believed(BelieveWithin(posed_, room, believed_), room.outlines, room.box_W);
+  const Observation believed(BelieveWithin(posed_, room, believed_), room.outlines, room.box_W);
   const bool is_alone = IsAlone(believed.flesh);
   thinned_.resize(room.outlines.size());
   for (std::size_t i = 0; i < thinned_.size(); ++i)
@@ -118,7 +118,7 @@ void PeopleCapture::Update(const Sighting& room, std::span<const CameraEye> eyes
 }
 
 // Time without sets tells nothing for or against anybody. But in a gap people may have moved or
-// entered, and after a long one whoever is seen may be somebody else.
+// entered, and after a long one the people may be others.
 void PeopleCapture::PassTime(std::int64_t capture_ns) {
   const std::int64_t passed_ns = last_ns_ ? std::max<std::int64_t>(0, capture_ns - *last_ns_) : 0;
   const double passed_s = static_cast<double>(passed_ns) * 1e-9;
@@ -172,7 +172,7 @@ bool PeopleCapture::IsAlone(const VoxelGrid& grid) {
 }
 
 // Flesh beside the box of a single person is nobody's, though the grid may contain it.
-void PeopleCapture::UpdateAlone(const Sighting& room, std::int64_t capture_ns,
+void PeopleCapture::UpdateAlone(const Observation& room, std::int64_t capture_ns,
                                 UpdateObserver* observer) {
   const VoxelGrid& flesh = VoxelsWithin(room.flesh, room.box_W, flesh_of_one_);
   Member& member = *members_.front();
@@ -200,7 +200,7 @@ void PeopleCapture::MeetStrangers(std::span<const CameraEye> eyes) {
   for (std::size_t i = 0; i < flesh_.strangers().size(); ++i) {
     const FleshShare& flesh = flesh_.strangers()[i];
     const OutlineShare& share = outlines_.shares()[posed_.size() + i];
-    if (share.witnesses < WitnessesWanted(eyes.size())) continue;
+    if (share.cameras < CamerasWanted(eyes.size())) continue;
     Member* const member = MemberFor(flesh.box_W.center());
     if (!member) continue;
     member->last_W = flesh.box_W.center();
@@ -240,17 +240,17 @@ void PeopleCapture::UpdateMembers(std::int64_t capture_ns, UpdateObserver* obser
       if (!member->beside) member->capture->Update({VoxelGrid(), {}}, capture_ns, observer);
       continue;
     }
-    const Sighting sighting(member->flesh->flesh, member->outlines->own, member->box_W,
-                            member->flesh->room, member->outlines->near);
+    const Observation observation(member->flesh->flesh, member->outlines->own, member->box_W,
+                                  member->flesh->room, member->outlines->near);
     if (options_.side && !posed_.empty() && !member->has_pose() && !member->beside)
       member->beside = options_.side->Begin(member->capture);
     if (member->beside) {
-      member->beside->See(sighting, capture_ns);
+      member->beside->See(observation, capture_ns);
       continue;
     }
-    member->capture->Update(sighting, capture_ns, observer);
+    member->capture->Update(observation, capture_ns, observer);
     // A lost person has a second to return, and may be hidden.
-    if (member->is_lost() || member->outlines->witnesses >= kLimits.least_witnesses)
+    if (member->is_lost() || member->outlines->cameras >= kLimits.least_cameras)
       member->seen_s = now_s_;
   }
 }

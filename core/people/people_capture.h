@@ -59,7 +59,7 @@ class PeopleCapture {
   /// @param eyes        of the cameras in the set.
   /// @param capture_ns  time of exposure; one before the last counts as the same time.
   /// @param observer    told of the stages, may be null; the result does not depend on it.
-  void Update(const Sighting& room, std::span<const CameraEye> eyes, std::int64_t capture_ns,
+  void Update(const Observation& room, std::span<const CameraEye> eyes, std::int64_t capture_ns,
               UpdateObserver* observer = nullptr);
 
   /// Returns the tracked people, in the order of their appearance.
@@ -88,7 +88,7 @@ class PeopleCapture {
   void BringBack();
   void PoseMembers(std::int64_t capture_ns);
   bool IsAlone(const VoxelGrid& grid);
-  void UpdateAlone(const Sighting& room, std::int64_t capture_ns, UpdateObserver* observer);
+  void UpdateAlone(const Observation& room, std::int64_t capture_ns, UpdateObserver* observer);
   void Divide(const VoxelGrid& grid);
   void MeetStrangers(std::span<const CameraEye> eyes);
   Member* MemberFor(const Vector3& middle_W);

@@ -30,7 +30,7 @@ double DistanceTo(const PosedPerson& person, const Vector3& p_W, double enough_m
   return least_mm;
 }
 
-const VoxelGrid& BelieveWithin(std::span<const PosedPerson> people, const Sighting& room,
+const VoxelGrid& BelieveWithin(std::span<const PosedPerson> people, const Observation& room,
                                VoxelGrid& believed) {
   if (room.doubtful.empty() || people.empty()) return room.flesh;
   believed = room.flesh;

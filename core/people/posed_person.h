@@ -36,7 +36,7 @@ double DistanceTo(const PosedPerson& person, const Vector3& p_W, double enough_m
 /// Returns a room's flesh with the doubtful cells that are within the bodies of people who are not
 /// lost. Where there are none, that is the room's own.
 /// @param believed  memory for the result.
-const VoxelGrid& BelieveWithin(std::span<const PosedPerson> people, const Sighting& room,
+const VoxelGrid& BelieveWithin(std::span<const PosedPerson> people, const Observation& room,
                                VoxelGrid& believed);
 
 /// Returns a box around flesh, with a margin and down to the floor: legs may have been carved away.

@@ -18,8 +18,8 @@ double EffortWithin(double dt_s);
 /// time.
 ///
 /// While no part explains some rays, each arm and leg is tried elsewhere, then both arms and both
-/// legs. If the fit is bad or the person faces backwards, whole stances are tried. Whoever was just
-/// found has all limbs tried first. Rounds without a change of mind are repeated after longer and
+/// legs. If the fit is bad or the person faces backwards, whole stances are tried. A newcomer
+/// has all limbs tried first. Rounds without a change of mind are repeated after longer and
 /// longer rests.
 class Scheduler {
  public:
@@ -31,7 +31,7 @@ class Scheduler {
   /// Begins with somebody who was found.
   void BeginRounds();
 
-  /// Finds hypotheses about whoever is there.
+  /// Finds hypotheses about the person who is there.
   /// @param known   sizes to keep; empty: they are measured.
   /// @param scope   what the search covers.
   std::vector<Hypothesis> FindAnybody(Objective& objective, const std::optional<BodySizes>& known,

@@ -1,5 +1,5 @@
-// Finds the poses that explain the evidence best, whoever it is. All poses are fitted, as in
-// articulated ICP with many starting points. Most are far off, and few samples show that.
+// Finds the poses that explain the evidence best, for a person of any sizes. All poses are fitted,
+// as in articulated ICP with many starting points. Most are far off, and few samples show that.
 #pragma once
 
 #include <vector>

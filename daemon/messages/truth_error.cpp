@@ -5,6 +5,8 @@
 #include <utility>
 #include <vector>
 
+#include "drivers/virtual_studio/truth.h"
+
 namespace mocap {
 namespace {
 

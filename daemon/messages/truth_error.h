@@ -4,7 +4,7 @@
 #include <functional>
 
 #include "daemon/pipeline/pose_sink.h"
-#include "drivers/simulation/simulated_studio.h"
+#include "drivers/virtual_studio/studio_options.h"
 
 namespace mocap {
 

@@ -61,7 +61,7 @@ CaptureBeside::CaptureBeside(std::shared_ptr<MotionCapture> capture, BeginWork b
 
 CaptureBeside::~CaptureBeside() { queue_->is_abandoned = true; }
 
-void CaptureBeside::See(const Sighting& sighting, std::int64_t capture_ns) {
+void CaptureBeside::See(const Observation& observation, std::int64_t capture_ns) {
   Queue& queue = *queue_;
   const std::int64_t waiting = queue.pushed - queue.taken;
   if (waiting == kMostWaiting) return;
@@ -69,11 +69,11 @@ void CaptureBeside::See(const Sighting& sighting, std::int64_t capture_ns) {
   if (queue.last_ns && std::abs(capture_ns - *queue.last_ns) < least_apart_ns) return;
   queue.last_ns = capture_ns;
   Queue::Seen& seen = queue.At(queue.pushed);
-  seen.flesh = sighting.flesh;
-  seen.room = sighting.room;
-  seen.outlines.assign(sighting.outlines.begin(), sighting.outlines.end());
-  seen.borders.assign(sighting.borders.begin(), sighting.borders.end());
-  seen.box_W = sighting.box_W;
+  seen.flesh = observation.flesh;
+  seen.room = observation.room;
+  seen.outlines.assign(observation.outlines.begin(), observation.outlines.end());
+  seen.borders.assign(observation.borders.begin(), observation.borders.end());
+  seen.box_W = observation.box_W;
   seen.capture_ns = capture_ns;
   ++queue.pushed;
   if (queue.is_begun.exchange(true)) return;

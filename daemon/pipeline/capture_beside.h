@@ -21,7 +21,7 @@ class CaptureBeside : public SideSearch {
   CaptureBeside(std::shared_ptr<MotionCapture> capture, BeginWork begin);
   ~CaptureBeside() override;
 
-  void See(const Sighting& sighting, std::int64_t capture_ns) override;
+  void See(const Observation& observation, std::int64_t capture_ns) override;
   bool HasCaughtUp() const override;
 
  private:

@@ -55,13 +55,13 @@ void CarveStage::Offer(int camera, SegmentedFrame& frame) {
   offering.late.store(synchronizer_.late(camera), std::memory_order_relaxed);
 }
 
-Synchronizer::Verdict CarveStage::Next(CarvedSet& set) {
-  const Synchronizer::Verdict verdict = synchronizer_.Decide();
-  if (verdict == Synchronizer::Verdict::kLetGo) {
+Synchronizer::Decision CarveStage::Next(CarvedSet& set) {
+  const Synchronizer::Decision decision = synchronizer_.Decide();
+  if (decision == Synchronizer::Decision::kLetGo) {
     const int camera = synchronizer_.camera();
     cameras_[camera].late.store(synchronizer_.late(camera), std::memory_order_relaxed);
   }
-  if (verdict != Synchronizer::Verdict::kSet) return verdict;
+  if (decision != Synchronizer::Decision::kSet) return decision;
   const std::int64_t begin_ns = SteadyNs();
   DecideFloor();
   Gather(set);
@@ -80,7 +80,7 @@ Synchronizer::Verdict CarveStage::Next(CarvedSet& set) {
   if (history_ && history_->Wants(set.frame)) history_->Add(PresentMoment());
   const bool complete = views_.size() == cameras_.size();
   (complete ? complete_sets_ : partial_sets_).fetch_add(1, std::memory_order_relaxed);
-  return verdict;
+  return decision;
 }
 
 void CarveStage::OfferToWatch(const VoxelGrid& hull) {

@@ -71,7 +71,7 @@ class CarveStage {
   /// Sets matched but not yet tracked, as of the last SetTracked; 0 without load control.
   std::int64_t under_way() const { return under_way_; }
   /// Takes the synchronizer's next decision. A set is carved into `set`.
-  Synchronizer::Verdict Next(CarvedSet& set);
+  Synchronizer::Decision Next(CarvedSet& set);
 
   std::int64_t complete_sets() const { return complete_sets_.load(std::memory_order_relaxed); }
   std::int64_t partial_sets() const { return partial_sets_.load(std::memory_order_relaxed); }

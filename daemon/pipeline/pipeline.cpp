@@ -151,9 +151,9 @@ void Pipeline::RunCarving() {
     HoldTaps();
     const bool all_ended = FeedFromQueues();
     grids_.Take(sets_.back().grid);
-    const Synchronizer::Verdict verdict = carve_->Next(sets_.back());
-    if (verdict == Synchronizer::Verdict::kSet) sets_.Push();
-    if (verdict != Synchronizer::Verdict::kWait) continue;
+    const Synchronizer::Decision decision = carve_->Next(sets_.back());
+    if (decision == Synchronizer::Decision::kSet) sets_.Push();
+    if (decision != Synchronizer::Decision::kWait) continue;
     if (all_ended) return;
     carve_bell_.WaitPast(seen);
   }
@@ -217,7 +217,7 @@ void Pipeline::RunSerially() {
   for (int i = 0; i < lines_->count(); ++i) (*lines_)[i].source->Start();
   for (bool all_ended = false; !all_ended;) {
     all_ended = FeedSerially();
-    while (carve_->Next(sets_.back()) == Synchronizer::Verdict::kSet) Track(sets_.back());
+    while (carve_->Next(sets_.back()) == Synchronizer::Decision::kSet) Track(sets_.back());
   }
   for (int i = 0; i < lines_->count(); ++i) (*lines_)[i].source->Stop();
   finished_.store(true, std::memory_order_release);

@@ -57,7 +57,7 @@ void Synchronizer::NoteNewest(int camera, std::int64_t capture_ns) {
   ++holder.late;
 }
 
-Synchronizer::Verdict Synchronizer::Decide() {
+Synchronizer::Decision Synchronizer::Decide() {
   times_.clear();
   int stalest = -1;
   for (int i = 0; i < static_cast<int>(cameras_.size()); ++i) {
@@ -65,11 +65,11 @@ Synchronizer::Verdict Synchronizer::Decide() {
     times_.push_back(cameras_[i].front_ns);
     if (stalest < 0 || cameras_[i].front_ns < cameras_[stalest].front_ns) stalest = i;
   }
-  if (times_.empty()) return Verdict::kWait;
+  if (times_.empty()) return Decision::kWait;
   std::ranges::sort(times_);
   const std::int64_t reference_ns = times_[(times_.size() - 1) / 2];
   const std::int64_t period_ns = PeriodNs();
-  if (MustWait(reference_ns, period_ns)) return Verdict::kWait;
+  if (MustWait(reference_ns, period_ns)) return Decision::kWait;
   const bool set_has_gone = times_.front() <= set_ns_ + period_ns / 4;
   if (set_has_gone || reference_ns - times_.front() > period_ns / 2) return LetGo(stalest);
   return FormSet(reference_ns, period_ns / 2);
@@ -94,15 +94,15 @@ bool Synchronizer::MustWait(std::int64_t reference_ns, std::int64_t period_ns) c
   });
 }
 
-Synchronizer::Verdict Synchronizer::LetGo(int camera) {
+Synchronizer::Decision Synchronizer::LetGo(int camera) {
   cameras_[camera].has_front = false;
   ++cameras_[camera].late;
   let_go_ = camera;
-  return Verdict::kLetGo;
+  return Decision::kLetGo;
 }
 
-Synchronizer::Verdict Synchronizer::FormSet(std::int64_t reference_ns,
-                                            std::int64_t half_period_ns) {
+Synchronizer::Decision Synchronizer::FormSet(std::int64_t reference_ns,
+                                             std::int64_t half_period_ns) {
   // One camera gives no volume, unless the studio has only one.
   const std::size_t fewest = std::min<std::size_t>(2, cameras_.size());
   const std::int64_t end_ns = reference_ns + half_period_ns;
@@ -120,7 +120,7 @@ Synchronizer::Verdict Synchronizer::FormSet(std::int64_t reference_ns,
   }
   set_ns_ = times_[(count - 1) / 2];
   spread_ns_ = times_[count - 1] - times_[0];
-  return Verdict::kSet;
+  return Decision::kSet;
 }
 
 }  // namespace mocap

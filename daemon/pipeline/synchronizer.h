@@ -58,13 +58,13 @@ class Synchronizer {
   /// Notes the newest frame of one camera. A front from before a clock step is dropped.
   void NoteNewest(int camera, std::int64_t capture_ns);
 
-  enum class Verdict {
+  enum class Decision {
     kWait,   ///< The front of some camera is needed first.
     kLetGo,  ///< The front of camera() was dropped: too old for any set.
     kSet,    ///< The members form a set. Their fronts are taken.
   };
   /// Takes the next decision. Call again until kWait.
-  Verdict Decide();
+  Decision Decide();
 
   /// After kLetGo: whose front was dropped.
   int camera() const { return let_go_; }
@@ -96,8 +96,8 @@ class Synchronizer {
 
   void StartAnew(Camera& camera, std::int64_t capture_ns);
   bool MustWait(std::int64_t reference_ns, std::int64_t period_ns) const;
-  Verdict LetGo(int camera);
-  Verdict FormSet(std::int64_t reference_ns, std::int64_t half_period_ns);
+  Decision LetGo(int camera);
+  Decision FormSet(std::int64_t reference_ns, std::int64_t half_period_ns);
 
   std::vector<Camera> cameras_;
   std::vector<std::int64_t> times_;  ///< Of fronts or members, sorted.

@@ -76,7 +76,7 @@ void TrackStage::Process(const CarvedSet& set) {
   TakeRequests();
   stage_ns_ = {};
   const std::int64_t begin_ns = mark_ns_ = SteadyNs();
-  Sighting room(set.grid, set.outlines, set.person_box_W);
+  Observation room(set.grid, set.outlines, set.person_box_W);
   room.doubtful = set.doubtful;
   people_.Update(room, set.eyes, Onward(set.capture_ns), this);
   const MotionCapture& first = people_.first();

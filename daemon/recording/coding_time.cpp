@@ -12,7 +12,7 @@ std::optional<ThreadTimes> ReadThreadTimes(pid_t thread) {
 }
 
 LossCause CauseOf(const CodingTime& time, int processors) {
-  /// A larger share of the time is no coincidence.
+  /// A cause that takes a larger share of the time explains the loss.
   constexpr double kMuch = 0.4;
   const auto all_ns = static_cast<double>(time.all_ns());
   if (all_ns <= 0) return LossCause::kUnknown;

@@ -20,7 +20,7 @@ constexpr std::chrono::seconds kLook{10};
 constexpr std::chrono::seconds kPatience{10};
 /// The same for beginning a take, and for canceling it where another node has failed.
 constexpr std::chrono::seconds kStartPatience{30}, kCancelPatience{20};
-// Whoever asks still hears which node it is.
+// A client that asks still hears which node it is.
 static_assert(ServiceControl::kNodePatience < kReplyPatience &&
               kStartPatience + kCancelPatience < kReplyPatience);
 

@@ -293,7 +293,7 @@ std::vector<std::string> Diagnostics(const ServiceReport& report) {
   ComplainOfDisk(report, list);
   if (report.node.empty()) ComplainOfSets(report, list);
   std::ranges::move(NodeDiagnostics(report.nodes, report.lcm_url), std::back_inserter(list));
-  // Whoever receives nothing hears no studio.
+  // Without reception no studio can be heard.
   if (report.link && report.delivery.channel.receive_fault.empty()) {
     std::ranges::move(
         LinkDiagnostics(*report.link, report.now.status.cameras, report.recording, report.lcm_url),

@@ -6,7 +6,7 @@
 #include <memory>
 #include <thread>
 
-#include "drivers/simulation/scene.h"
+#include "drivers/virtual_studio/scene.h"
 
 namespace mocap::simulation {
 

@@ -2,10 +2,10 @@
 
 #include <cmath>
 
-#include "drivers/simulation/camera_rig.h"
-#include "drivers/simulation/printed_board.h"
-#include "drivers/simulation/random.h"
-#include "drivers/simulation/scene.h"
+#include "drivers/virtual_studio/random.h"
+#include "drivers/virtual_studio/room/camera_rig.h"
+#include "drivers/virtual_studio/room/printed_board.h"
+#include "drivers/virtual_studio/scene.h"
 
 namespace mocap {
 namespace {

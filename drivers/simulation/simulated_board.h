@@ -6,7 +6,8 @@
 #include <vector>
 
 #include "core/image.h"
-#include "drivers/simulation/simulated_studio.h"
+#include "core/reconstruction/camera/camera_model.h"
+#include "drivers/virtual_studio/studio_options.h"
 
 namespace mocap {
 

@@ -9,8 +9,8 @@
 #include "drivers/pan_tilt_camera.h"
 #include "drivers/simulation/coded_frames.h"
 #include "drivers/simulation/picture_ahead.h"
-#include "drivers/simulation/random.h"
-#include "drivers/simulation/scene.h"
+#include "drivers/virtual_studio/random.h"
+#include "drivers/virtual_studio/scene.h"
 
 namespace mocap {
 namespace {
@@ -22,35 +22,6 @@ constexpr std::int64_t kLossNs = 2'000'000'000;
 constexpr double kSlotsPerMinute = 12;
 
 }  // namespace
-
-SimulatedStudioOptions RecordedSimulation() {
-  SimulatedStudioOptions options;
-  options.start_ns = 1'000'000'000'000;
-  return options;
-}
-
-SimulatedTruth::SimulatedTruth(const SimulatedStudioOptions& options)
-    : people_(simulation::MakePeople(options)) {}
-SimulatedTruth::~SimulatedTruth() = default;
-SimulatedTruth::SimulatedTruth(SimulatedTruth&&) noexcept = default;
-
-JointPositions SimulatedTruth::At(std::int64_t capture_ns, int person) const {
-  return simulation::PointsOf(people_[person].body(), people_[person].BonesAt(capture_ns));
-}
-
-TruthSizes SimulatedTruth::Sizes(int person) const {
-  const simulation::Anthropometry& body = people_[person].body();
-  const JointPositions upright =
-      simulation::PointsOf(body, simulation::PlaceBones(body, simulation::BodyPose{}));
-  const auto neck = static_cast<int>(simulation::TruthPoint::kNeck);
-  return {body.stature_mm,
-          body.ankle_to_sole_mm,
-          {{"torso_mm", upright[neck].norm()},
-           {"thigh_mm", body.thigh_mm},
-           {"calf_mm", body.calf_mm()},
-           {"upper_arm_mm", body.upper_arm_mm},
-           {"lower_arm_mm", body.lower_arm_mm()}}};
-}
 
 SimulatedCamera::SimulatedCamera(std::shared_ptr<const simulation::SceneView> view,
                                  std::shared_ptr<SimulatedHead> head)

@@ -28,7 +28,7 @@ void MatchManySets(benchmark::State& state) {
   for (auto _ : state) {
     for (int c = 0; c < cameras; ++c) {
       synchronizer.Offer(c, TimeNs(set), static_cast<std::uint64_t>(set));
-      while (synchronizer.Decide() != Synchronizer::Verdict::kWait) {
+      while (synchronizer.Decide() != Synchronizer::Decision::kWait) {
       }
     }
     ++set;

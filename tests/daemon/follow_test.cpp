@@ -9,6 +9,7 @@
 #include "config/load_config.h"
 #include "daemon/pipeline/pipeline.h"
 #include "drivers/simulation/simulated_studio.h"
+#include "drivers/virtual_studio/truth.h"
 
 namespace mocap {
 namespace {

@@ -85,7 +85,7 @@ class FramePathTest : public ::testing::Test {
       if (c != absent) carve_->Offer(c, frames_[c]);
       carve_->synchronizer().Expect(c, c == absent ? Expectation::kNone : Expectation::kCertain);
     }
-    EXPECT_EQ(carve_->Next(set_), Synchronizer::Verdict::kSet);
+    EXPECT_EQ(carve_->Next(set_), Synchronizer::Decision::kSet);
     std::int64_t voxels = 0;
     for (const std::uint64_t word : set_.grid.words()) voxels += std::popcount(word);
     return voxels;

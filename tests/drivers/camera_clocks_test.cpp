@@ -80,9 +80,9 @@ TEST(CameraClocks, SetsAreRightWhateverTheClocksSay) {
       synchronizer.NoteNewest(frame.capture_ns);
       if (synchronizer.Offer(i, frame.capture_ns, frame.sequence)) shown[i] = frame.image(0, 0).g;
     }
-    Synchronizer::Verdict verdict;
-    while ((verdict = synchronizer.Decide()) != Synchronizer::Verdict::kWait) {
-      if (verdict != Synchronizer::Verdict::kSet) continue;
+    Synchronizer::Decision decision;
+    while ((decision = synchronizer.Decide()) != Synchronizer::Decision::kWait) {
+      if (decision != Synchronizer::Decision::kSet) continue;
       ++sets;
       int picture = -1;
       for (int i = 0; i < kCameras; ++i) {

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "core/geometry.h"
-#include "drivers/simulation/skeleton.h"
+#include "drivers/virtual_studio/people/skeleton.h"
 
 namespace mocap::simulation {
 

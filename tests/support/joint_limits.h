@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "drivers/simulation/skeleton.h"
+#include "drivers/virtual_studio/people/skeleton.h"
 
 namespace mocap::simulation {
 

@@ -9,7 +9,7 @@ class StillCapture : public MotionCapture {
  public:
   StillCapture(const BodyModel& body, const CaptureResult& result) : body_(body), result_(result) {}
 
-  const CaptureResult& Update(const Sighting&, std::int64_t, UpdateObserver*) override {
+  const CaptureResult& Update(const Observation&, std::int64_t, UpdateObserver*) override {
     return result_;
   }
   void Forget() override {}

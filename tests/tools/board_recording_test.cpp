@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "core/errors.h"
-#include "drivers/simulation/camera_rig.h"
+#include "drivers/virtual_studio/room/camera_rig.h"
 #include "tests/support/temporary_folder.h"
 #include "tests/tools/calibration/board_picture.h"
 #include "tests/tools/calibration/simulated_board.h"

@@ -10,7 +10,7 @@ using ::testing::HasSubstr;
 
 TEST(DoctorChecks, FiftyGigabytesAreRoomEnough) {
   const Diagnosis good = JudgeSpace("/takes", 56'000, 500, 800);
-  EXPECT_EQ(good.verdict, Verdict::kGood);
+  EXPECT_EQ(good.grade, Grade::kGood);
   EXPECT_EQ(
       good.what,
       "/takes: 56.0 GB free, room for about 10 min of takes of six cameras (640 x 480, 30 Hz); "
@@ -19,23 +19,23 @@ TEST(DoctorChecks, FiftyGigabytesAreRoomEnough) {
 }
 
 TEST(DoctorChecks, ADiskOnWhichNothingCanBeRecordedIsBad) {
-  EXPECT_EQ(JudgeSpace("/takes", 20'000, 500, 800).verdict, Verdict::kAdvice);
+  EXPECT_EQ(JudgeSpace("/takes", 20'000, 500, 800).grade, Grade::kAdvice);
   const Diagnosis full = JudgeSpace("/takes", 400, 500, 800);
-  EXPECT_EQ(full.verdict, Verdict::kBad);
+  EXPECT_EQ(full.grade, Grade::kBad);
   EXPECT_THAT(full.what, HasSubstr("0.4 GB free, and recording.keep_free_mb is 500"));
   EXPECT_THAT(full.fix, HasSubstr("recording.folder"));
 }
 
 TEST(DoctorChecks, ASlowDiskIsBad) {
   const Diagnosis slow = JudgeSpace("/takes", 56'000, 500, 20);
-  EXPECT_EQ(slow.verdict, Verdict::kBad);
+  EXPECT_EQ(slow.grade, Grade::kBad);
   EXPECT_THAT(slow.fix, HasSubstr("135 MB/s"));
 }
 
 TEST(DoctorChecks, AnAddressIsToldOnce) {
-  EXPECT_EQ(CheckMessages("memq://").verdict, Verdict::kBad);
+  EXPECT_EQ(CheckMessages("memq://").grade, Grade::kBad);
   const Diagnosis wrong = CheckMessages("nonsense");
-  EXPECT_EQ(wrong.verdict, Verdict::kBad);
+  EXPECT_EQ(wrong.grade, Grade::kBad);
   EXPECT_EQ(wrong.fix, "") << "the line itself says what is expected";
 }
 

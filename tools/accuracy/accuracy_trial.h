@@ -3,8 +3,8 @@
 
 #include "config/config.h"
 #include "daemon/pipeline/pose_sink.h"
-#include "drivers/simulation/simulated_studio.h"
 #include "drivers/studio.h"
+#include "drivers/virtual_studio/studio_options.h"
 #include "tools/accuracy/disturbed_camera.h"
 #include "tools/report/evaluation.h"
 

@@ -4,7 +4,7 @@
 
 #include <cstdio>
 
-#include "drivers/simulation/company.h"
+#include "drivers/virtual_studio/motions/company.h"
 #include "tools/accuracy/accuracy_report.h"
 #include "tools/accuracy/evidence_report.h"
 #include "tools/accuracy/paper_report.h"

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "drivers/simulation/random.h"
+#include "drivers/virtual_studio/random.h"
 
 namespace mocap {
 namespace {

@@ -15,6 +15,7 @@
 #include "core/reconstruction/carving/unknown_share.h"
 #include "core/reconstruction/silhouette/segmenter.h"
 #include "daemon/pipeline/pose_sink.h"
+#include "drivers/simulation/simulated_studio.h"
 #include "tools/accuracy/accuracy_trial.h"
 
 namespace mocap {

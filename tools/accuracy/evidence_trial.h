@@ -5,7 +5,7 @@
 #include <optional>
 #include <vector>
 
-#include "drivers/simulation/simulated_studio.h"
+#include "drivers/virtual_studio/studio_options.h"
 #include "tools/accuracy/accuracy_benchmark.h"
 
 namespace mocap {

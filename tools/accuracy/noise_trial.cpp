@@ -11,6 +11,8 @@
 #include "core/errors.h"
 #include "core/hypotheses/hypothesis.h"
 #include "core/proposals/stance_search.h"
+#include "drivers/simulation/simulated_studio.h"
+#include "drivers/virtual_studio/truth.h"
 #include "tools/accuracy/residual_fit.h"
 #include "tools/accuracy/simulated_points.h"
 
@@ -132,7 +134,7 @@ class ResidualKeeper : public PoseSink {
 
   void OnSet(const TrackedSet& set) override {
     if (set.result.state != CaptureState::kTracking || set.frame % every_ != 0) return;
-    evidence_.Gather(Sighting(set.grid, set.outlines));
+    evidence_.Gather(Observation(set.grid, set.outlines));
     const auto number = static_cast<int>(set.frame / every_);
     const ScoredPoints points_W = TrueScoredPoints(truth_, set.capture_ns);
     const PoseState pose = TruePoseOf(set.body, set.result.pose, points_W);

@@ -8,7 +8,7 @@
 
 #include "core/quantile.h"
 #include "drivers/printable_text.h"
-#include "drivers/simulation/random.h"
+#include "drivers/virtual_studio/random.h"
 
 namespace mocap {
 namespace {
@@ -78,15 +78,15 @@ PairedDifference DifferenceOf(const std::string& label, const PeopleSums& people
   return result;
 }
 
-std::string VerdictText(PairedVerdict verdict) {
-  switch (verdict) {
-    case PairedVerdict::kBetter:
+std::string ConclusionText(PairedConclusion conclusion) {
+  switch (conclusion) {
+    case PairedConclusion::kBetter:
       return "better";
-    case PairedVerdict::kWorse:
+    case PairedConclusion::kWorse:
       return "worse";
-    case PairedVerdict::kNoDifference:
+    case PairedConclusion::kNoDifference:
       return "no difference";
-    case PairedVerdict::kTooFew:
+    case PairedConclusion::kTooFew:
       break;
   }
   return "too few people";
@@ -104,10 +104,10 @@ std::string ListText(const std::vector<ScoreRow>& rows, std::string_view what) {
 
 }  // namespace
 
-PairedVerdict PairedDifference::verdict() const {
-  if (people < kFewestPeople) return PairedVerdict::kTooFew;
-  if (high_mm < 0) return PairedVerdict::kBetter;
-  return low_mm > 0 ? PairedVerdict::kWorse : PairedVerdict::kNoDifference;
+PairedConclusion PairedDifference::conclusion() const {
+  if (people < kFewestPeople) return PairedConclusion::kTooFew;
+  if (high_mm < 0) return PairedConclusion::kBetter;
+  return low_mm > 0 ? PairedConclusion::kWorse : PairedConclusion::kNoDifference;
 }
 
 PairedComparison ComparePaired(std::span<const ScoreRow> before, std::span<const ScoreRow> after) {
@@ -141,13 +141,13 @@ PairedComparison ComparePaired(std::span<const ScoreRow> before, std::span<const
 std::string ComparisonText(const PairedComparison& comparison) {
   std::string text =
       fmt::format("{:<32}{:>7}{:>10}{:>10}{:>12}{:>18}{:>19}  {}\n", "", "people", "before mm",
-                  "after mm", "difference", "95 % interval", "tracked %", "verdict");
+                  "after mm", "difference", "95 % interval", "tracked %", "conclusion");
   for (const PairedDifference& d : comparison.differences)
     text += fmt::format("{:<32}{:>7}{:>10.2f}{:>10.2f}{:>+12.2f}{:>18}{:>19}  {}\n", d.label,
                         d.people, d.before_mm, d.after_mm, d.difference_mm(),
                         fmt::format("{:+.2f} to {:+.2f}", d.low_mm, d.high_mm),
                         fmt::format("{:.2f} to {:.2f}", 100 * d.share_before, 100 * d.share_after),
-                        VerdictText(d.verdict()));
+                        ConclusionText(d.conclusion()));
   return text + ListText(comparison.only_before, "only before") +
          ListText(comparison.only_after, "only after") +
          ListText(comparison.never_before, "tracked only after") +

@@ -9,7 +9,7 @@
 
 namespace mocap {
 
-enum class PairedVerdict { kBetter, kWorse, kNoDifference, kTooFew };
+enum class PairedConclusion { kBetter, kWorse, kNoDifference, kTooFew };
 
 /// A comparison over people. A person's error is the mean over the runs that both versions have.
 struct PairedDifference {
@@ -20,7 +20,7 @@ struct PairedDifference {
   double share_before = 0, share_after = 0;  ///< Tracked; also of people without errors.
 
   double difference_mm() const { return after_mm - before_mm; }
-  PairedVerdict verdict() const;
+  PairedConclusion conclusion() const;
 };
 
 /// With fewer people, even a change that all of them agree on is luck in more than 5 % of cases.

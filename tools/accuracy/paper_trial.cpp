@@ -7,6 +7,8 @@
 #include "config/load_config.h"
 #include "core/mikic2003/mikic_capture.h"
 #include "daemon/pipeline/pipeline.h"
+#include "drivers/simulation/simulated_studio.h"
+#include "drivers/virtual_studio/truth.h"
 #include "tools/accuracy/paper_stages.h"
 #include "tools/accuracy/simulated_points.h"
 

@@ -9,7 +9,7 @@
 
 #include "core/evaluation/accuracy.h"
 #include "core/reconstruction/carving/voxel_grid.h"
-#include "drivers/simulation/simulated_studio.h"
+#include "drivers/virtual_studio/studio_options.h"
 
 namespace mocap {
 

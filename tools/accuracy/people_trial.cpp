@@ -7,7 +7,9 @@
 #include "config/config.h"
 #include "config/load_config.h"
 #include "daemon/pipeline/pipeline.h"
-#include "drivers/simulation/company.h"
+#include "drivers/simulation/simulated_studio.h"
+#include "drivers/virtual_studio/motions/company.h"
+#include "drivers/virtual_studio/truth.h"
 #include "tools/accuracy/simulated_points.h"
 #include "tools/results/result_sink.h"
 

@@ -6,7 +6,7 @@
 #include <string>
 
 #include "core/evaluation/people_accuracy.h"
-#include "drivers/simulation/simulated_studio.h"
+#include "drivers/virtual_studio/studio_options.h"
 
 namespace mocap {
 

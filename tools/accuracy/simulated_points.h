@@ -4,7 +4,7 @@
 #include <algorithm>
 
 #include "core/evaluation/accuracy.h"
-#include "drivers/simulation/simulated_studio.h"
+#include "drivers/virtual_studio/truth.h"
 #include "tools/results/take_truth.h"
 
 namespace mocap {

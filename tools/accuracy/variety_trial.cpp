@@ -7,8 +7,8 @@
 #include <cmath>
 
 #include "core/errors.h"
-#include "drivers/simulation/costume.h"
-#include "drivers/simulation/random.h"
+#include "drivers/virtual_studio/people/costume.h"
+#include "drivers/virtual_studio/random.h"
 
 namespace mocap {
 namespace {
@@ -39,7 +39,7 @@ Counts CountOf(std::span<const VarietyRow> rows) {
   return counts;
 }
 
-// Whoever was never found is worse than anybody else.
+// A person who was never found ranks last.
 bool IsWorse(const VarietyRow& a, const VarietyRow& b) {
   if ((a.found_s < 0) != (b.found_s < 0)) return a.found_s < 0;
   return a.accuracy.mpjpe_mm > b.accuracy.mpjpe_mm;
@@ -59,7 +59,7 @@ void AddRun(const Evaluation& evaluation, std::int64_t from, std::vector<ErrorsB
     if (row.frame >= from) sets.push_back(row.frame);
 }
 
-// Whoever was not found by one of the runs was never found.
+// A person whom one of the runs did not find was never found.
 void TakeWorst(const AccuracyRow& run, AccuracyRow& worst) {
   const bool is_never = run.found_after < 0 || worst.found_after < 0;
   worst.found_after = is_never ? -1 : std::max(worst.found_after, run.found_after);

@@ -180,7 +180,7 @@ void RefuseOneTilt(const std::string& name, const std::string& frames, const Bun
                   name, rms_px, views, worst_frame));
 }
 
-// Whoever holds the board can do nothing about corners that fit no plane.
+// The person who holds the board can do nothing about corners that fit no plane.
 void RefuseUncertainFocus(const std::string& name, const BoardDetections& detections,
                           const std::vector<int>& views, const Zhang& zhang) {
   if (zhang.focal_sigma_share < kWorstFocalSigma && zhang.K.allFinite()) return;

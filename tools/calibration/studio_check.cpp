@@ -154,7 +154,7 @@ const char* NameOf(Severity severity) {
   return severity == Severity::kWarning ? "warning" : "note";
 }
 
-std::string Verdict(const std::vector<Finding>& findings) {
+std::string Conclusion(const std::vector<Finding>& findings) {
   if (CountOf(Severity::kWrong, findings) > 0) return "Do not use this calibration.";
   if (CountOf(Severity::kWarning, findings) > 0)
     return "This calibration can be used, but check the warnings.";
@@ -171,9 +171,10 @@ KnownDistance ParseDistance(const std::string& text) {
     distance.mm = std::strtod(text.c_str() + second + 1, &end);
     const bool is_length = std::isfinite(distance.mm) && distance.mm > 0;
     if (is_length && distance.mm < kNearestCameras_mm)
-      throw SetupError(fmt::format("--distance {}: {:g} mm do not lie between two cameras; expected "
-                                   "millimetres",
-                                   Quoted(text), distance.mm));
+      throw SetupError(
+          fmt::format("--distance {}: {:g} mm do not lie between two cameras; expected "
+                      "millimetres",
+                      Quoted(text), distance.mm));
     if (*end == '\0' && is_length && distance.from != distance.to) return distance;
   }
   throw SetupError("--distance " + Quoted(text) + ": expected CAMERA:CAMERA:MM");

@@ -28,7 +28,7 @@ std::ptrdiff_t CountOf(Severity severity, const std::vector<Finding>& findings);
 const char* NameOf(Severity severity);
 
 /// Summarizes findings in a sentence.
-std::string Verdict(const std::vector<Finding>& findings);
+std::string Conclusion(const std::vector<Finding>& findings);
 
 /// A distance between two cameras' lenses, measured by tape.
 struct KnownDistance {

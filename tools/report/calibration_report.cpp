@@ -16,8 +16,8 @@ namespace {
 constexpr std::size_t kWorstViews = 8;
 
 constexpr const char* kStyle = R"(
-.verdict { font-size: 17px; border-left: 4px solid var(--c2); padding: 2px 0 2px 14px; margin: 14px 0 24px; }
-.verdict.warning { border-color: var(--c3); } .verdict.error { border-color: #d64545; }
+.conclusion { font-size: 17px; border-left: 4px solid var(--c2); padding: 2px 0 2px 14px; margin: 14px 0 24px; }
+.conclusion.warning { border-color: var(--c3); } .verdict.error { border-color: #d64545; }
 .findings { padding: 0; list-style: none; } .findings li { margin: 5px 0 5px 66px; max-width: 86ch; text-indent: -66px; }
 .findings b { display: inline-block; width: 66px; font-weight: 600; text-indent: 0; }
 .axes { fill: none; stroke: var(--fg); stroke-width: 2; }
@@ -151,11 +151,11 @@ std::string CalibrationReportHtml(const std::string& title, std::int64_t made_s,
       "<!doctype html><html lang=\"en\"><meta charset=\"utf-8\"><meta name=\"viewport\" "
       "content=\"width=device-width\"><title>{0}</title><style>{1}{2}</style><main><h1>{0}</h1>"
       "<p class=\"under\">{7}; {3}; {4}</p>"
-      "<p class=\"verdict {5}\">{6}</p>\n",
+      "<p class=\"conclusion {5}\">{6}</p>\n",
       EscapeHtml(title), kReportStyle, kStyle, EscapeHtml(fit.detections.board.Text()),
       fit.has_floor ? "world right-handed, z up, floor at z = 0, millimetres"
                     : "world of the first camera (x right, y down, z forward), millimetres",
-      mood, EscapeHtml(Verdict(findings)), UtcText(made_s));
+      mood, EscapeHtml(Conclusion(findings)), UtcText(made_s));
   html += CalibrationTiles(fit, volume);
   html += "<h2>Findings</h2>\n" + FindingList(findings);
   html += "<h2>Cameras</h2>\n" + CameraTable(fit);

@@ -238,7 +238,7 @@ class ViewServer::Impl {
         refusals_.Add("a request that is not the page's own");
         response = std::move(*refusal);
       } else if (websocket::is_upgrade(request)) {
-        // Whoever sends more before the answer is no browser.
+        // A browser sends nothing more before the answer.
         const bool is_sound = connection.buffer.size() == 0;
         if (is_sound && options_.is_live && request.target() == "/live" &&
             live_pages() < kMostPages) {
@@ -370,7 +370,7 @@ class ViewServer::Impl {
   Refusals refusals_;
   // Members used by coroutines precede the loop; members that use the loop follow it.
   asio::io_context io_{1};
-  // From now on: whoever reads the address may end the server before it runs.
+  // From now on, a client that reads the address may end the server before it runs.
   asio::signal_set signals_{io_, SIGINT, SIGTERM};
   std::list<std::shared_ptr<Connection>> connections_;
   tcp::acceptor acceptor_;

@@ -39,7 +39,7 @@ class Carver::Walk {
   const Eigen::AlignedBox3d& person_box_W() const { return person_box_W_; }
 
  private:
-  enum class Verdict { kEmpty, kDoubtful, kPerson };
+  enum class Content { kEmpty, kDoubtful, kPerson };
   // A cube of voxels and what is known about it.
   struct Block {
     Eigen::Vector3i first;  // Within the grid.
@@ -63,9 +63,9 @@ class Carver::Walk {
   OctantDecisions Judge(const Block& block, int i, float spread, float half, std::uint8_t& framed);
   std::uint8_t OctantsInGrid(const Block& block) const;
   void Fill(const Block& block);
-  Verdict AskSamples(const Block& block, std::span<const SampleDecisions> decisions, int voxel,
+  Content AskSamples(const Block& block, std::span<const SampleDecisions> decisions, int voxel,
                      unsigned agrees, unsigned doubtful, unsigned open) const;
-  Verdict AskSample(const Block& block, std::span<const SampleDecisions> decisions, int voxel,
+  Content AskSample(const Block& block, std::span<const SampleDecisions> decisions, int voxel,
                     int sample) const;
   std::optional<WindowMap::Kind> Look(int view, const Vector3& p_W) const;
 
@@ -306,34 +306,34 @@ void Carver::Walk::Decide(const Block& block, std::span<const SampleDecisions> d
   const std::uint8_t agreed = Majorities(agrees);
   for (; asked != 0; asked &= static_cast<std::uint8_t>(asked - 1)) {
     const int voxel = std::countr_zero(asked);
-    const Verdict verdict = agreed >> voxel & 1
-                                ? Verdict::kPerson
+    const Content content = agreed >> voxel & 1
+                                ? Content::kPerson
                                 : AskSamples(block, decisions, voxel, SamplesOf(agrees, voxel),
                                              SamplesOf(doubtful, voxel), SamplesOf(open, voxel));
     const Eigen::Vector3i at = VoxelAt(block, voxel);
-    if (verdict == Verdict::kPerson) grid_->Set(at.x(), at.y(), at.z());
-    if (verdict == Verdict::kDoubtful && doubtful_) doubtful_->push_back(at);
+    if (content == Content::kPerson) grid_->Set(at.x(), at.y(), at.z());
+    if (content == Content::kDoubtful && doubtful_) doubtful_->push_back(at);
   }
 }
 
 // Tests a voxel's open samples exactly, as long as the result depends on them.
-Carver::Walk::Verdict Carver::Walk::AskSamples(const Block& block,
+Carver::Walk::Content Carver::Walk::AskSamples(const Block& block,
                                                std::span<const SampleDecisions> decisions,
                                                int voxel, unsigned agrees, unsigned doubtful,
                                                unsigned open) const {
   for (; open != 0; open &= open - 1) {
     const int sample = std::countr_zero(open);
-    const Verdict verdict = AskSample(block, decisions, voxel, sample);
-    if (verdict == Verdict::kPerson) agrees |= 1u << sample;
-    if (verdict == Verdict::kDoubtful) doubtful |= 1u << sample;
-    if (std::popcount(agrees) >= kMajority) return Verdict::kPerson;
-    if (std::popcount(agrees | doubtful | (open & (open - 1))) < kMajority) return Verdict::kEmpty;
+    const Content content = AskSample(block, decisions, voxel, sample);
+    if (content == Content::kPerson) agrees |= 1u << sample;
+    if (content == Content::kDoubtful) doubtful |= 1u << sample;
+    if (std::popcount(agrees) >= kMajority) return Content::kPerson;
+    if (std::popcount(agrees | doubtful | (open & (open - 1))) < kMajority) return Content::kEmpty;
   }
-  return std::popcount(agrees | doubtful) >= kMajority ? Verdict::kDoubtful : Verdict::kEmpty;
+  return std::popcount(agrees | doubtful) >= kMajority ? Content::kDoubtful : Content::kEmpty;
 }
 
 // Tests a sample exactly in those cameras that have not decided it yet.
-Carver::Walk::Verdict Carver::Walk::AskSample(const Block& block,
+Carver::Walk::Content Carver::Walk::AskSample(const Block& block,
                                               std::span<const SampleDecisions> decisions, int voxel,
                                               int sample) const {
   const Vector3 corner_W =
@@ -359,14 +359,14 @@ Carver::Walk::Verdict Carver::Walk::AskSample(const Block& block,
       kind = Look(block.views[i], p_W);
     if (kind == WindowMap::Kind::kOutside) {
       outweighing += views_[block.views[i]].outweighed_by;
-      if (outweighing >= static_cast<int>(views_.size())) return Verdict::kEmpty;
+      if (outweighing >= static_cast<int>(views_.size())) return Content::kEmpty;
     }
     if (kind == WindowMap::Kind::kInside) ++persons;
     if (kind == WindowMap::Kind::kUnknown) ++unknown;
   }
-  if (persons + unknown < fewest_) return Verdict::kEmpty;
-  if (persons >= unknown + outweighing) return Verdict::kPerson;
-  return outweighing > 0 ? Verdict::kEmpty : Verdict::kDoubtful;
+  if (persons + unknown < fewest_) return Content::kEmpty;
+  if (persons >= unknown + outweighing) return Content::kPerson;
+  return outweighing > 0 ? Content::kEmpty : Content::kDoubtful;
 }
 
 // Evaluates the definition at one point; empty if the camera does not see it.

@@ -28,7 +28,7 @@ struct CarvingOptions {
 /// must see it. A camera with an empty silhouette counts as one that cannot see the person. Mikić
 /// et al. 2003, §4. Beyond the paper, an unknown pixel does not carve either, as long as no fewer
 /// cameras show the person there than do not know, and cameras that call it empty may be
-/// outweighed: as many more must show the person. Thread-bound; reuses its memory.
+/// outweighed by as many more that show the person. Thread-bound; reuses its memory.
 class Carver {
  public:
   static constexpr int kMostViews = 64;

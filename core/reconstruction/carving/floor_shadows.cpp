@@ -169,13 +169,13 @@ void FloorShadows::Vote(std::span<const ShadedView> views, std::size_t view) {
     const auto place_W = OnFloor(X_WC, directions_C[tile.row * shading.tile_columns + tile.column]);
     if (!place_W) continue;
     switch (Judge(views, view, *place_W, tile.shade)) {
-      case Verdict::kClothes:
+      case Cause::kClothes:
         clothes_.Set(tile.column, tile.row);
         break;
-      case Verdict::kShadow:
+      case Cause::kShadow:
         shadows_.Set(tile.column, tile.row);
         break;
-      case Verdict::kUnknown:
+      case Cause::kUnknown:
         undecided_.push_back(tile);
     }
   }
@@ -191,16 +191,16 @@ void FloorShadows::Vote(std::span<const ShadedView> views, std::size_t view) {
 }
 
 // Tests how bright the other cameras see the floor at a dark tile.
-FloorShadows::Verdict FloorShadows::Judge(std::span<const ShadedView> views, std::size_t view,
-                                          const Vector3& place_W, Shading::Shade shade) const {
+FloorShadows::Cause FloorShadows::Judge(std::span<const ShadedView> views, std::size_t view,
+                                        const Vector3& place_W, Shading::Shade shade) const {
   int bright = 0, dark = 0;
   for (std::size_t i = 0; i < views.size(); ++i) {
     if (!IsOther(i, view, views.size())) continue;
     const std::optional<Shading::Shade> other = ShadeOf(views[i], people_[i], place_W);
     if (other) ++(static_cast<float>(*other) > kAlike * static_cast<float>(shade) ? bright : dark);
   }
-  if (bright >= kBrightWanted && bright > dark) return Verdict::kClothes;
-  return dark > 0 ? Verdict::kShadow : Verdict::kUnknown;
+  if (bright >= kBrightWanted && bright > dark) return Cause::kClothes;
+  return dark > 0 ? Cause::kShadow : Cause::kUnknown;
 }
 
 // Removes thin parts.

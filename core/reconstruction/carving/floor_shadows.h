@@ -42,10 +42,10 @@ class FloorShadows {
 
  private:
   void FindPeople(std::span<const ShadedView> views);
-  enum class Verdict { kClothes, kShadow, kUnknown };
+  enum class Cause { kClothes, kShadow, kUnknown };
   void Vote(std::span<const ShadedView> views, std::size_t view);
-  Verdict Judge(std::span<const ShadedView> views, std::size_t view, const Vector3& place_W,
-                Shading::Shade shade) const;
+  Cause Judge(std::span<const ShadedView> views, std::size_t view, const Vector3& place_W,
+              Shading::Shade shade) const;
   void Gather(std::span<const ShadedView> views, std::size_t view);
   void Open();
   // Return whether anything changed.

@@ -15,8 +15,7 @@ using Place = EmptyRoom::Place;
 using Color = ShownColors::Color;
 
 /// A colour is the empty studio's if it was shown in this share of the pictures, and this many
-/// times as often as the next. Whoever stays in one place for less than that is not taken for a
-/// wall.
+/// times as often as the next. A person who leaves a place sooner is not taken for a wall.
 constexpr double kLeastShare = 0.25;
 constexpr int kDominance = 2;
 /// A brighter shade is the unshaded one if it was shown in this share of the pictures of a darker.

@@ -19,8 +19,8 @@ struct GreyTolerance {
   }
 };
 
-/// Measures noise by the differences between successive pictures: whoever moves changes only a
-/// small part of each. Thread-bound.
+/// Measures noise by the differences between successive pictures: people who move change
+/// only a small part of each. Thread-bound.
 class NoiseMeter {
  public:
   /// @pre  all pictures have one size.

@@ -172,16 +172,16 @@ TEST_F(Division, WhoseRaysTheOutlinesAre) {
   EXPECT_GT(owned, 0.97 * static_cast<double>(rays));
   EXPECT_LT(wrong, 0.02 * static_cast<double>(rays));
   // One camera looks along both.
-  EXPECT_GE(outlines_.shares()[0].witnesses, 5);
-  EXPECT_GE(outlines_.shares()[1].witnesses, 5);
+  EXPECT_GE(outlines_.shares()[0].cameras, 5);
+  EXPECT_GE(outlines_.shares()[1].cameras, 5);
 }
 
-TEST_F(Division, TwoBodiesInOnePlaceHaveNoWitness) {
+TEST_F(Division, NoCameraShowsTwoBodiesInOnePlaceApart) {
   const std::vector<PosedPerson> people = {At(0, 1800), At(10, 1790)};
   const auto seen = Carve({people[0]});
   flesh_.Divide(seen.hull, people);
   outlines_.Divide(seen.outlines, people, flesh_);
-  EXPECT_LT(std::min(outlines_.shares()[0].witnesses, outlines_.shares()[1].witnesses), 2);
+  EXPECT_LT(std::min(outlines_.shares()[0].cameras, outlines_.shares()[1].cameras), 2);
 }
 
 TEST_F(Division, WhatNoBodyExplainsIsForAllWhoMayHaveLostIt) {
@@ -202,7 +202,7 @@ TEST_F(Division, WhatNoBodyExplainsIsForAllWhoMayHaveLostIt) {
   EXPECT_FALSE(HasFleshAt(flesh_.shares()[1], chest_W));
 }
 
-TEST_F(Division, StrangeFleshTakesNoWitnessFromWhoIsKnown) {
+TEST_F(Division, StrangeFleshTakesNoCameraFromAKnownPerson) {
   const std::vector<PosedPerson> people = {At(0, 1750)};
   std::vector<PosedPerson> with_phantom = people;
   const std::vector<Vector3> around_W = {
@@ -214,7 +214,7 @@ TEST_F(Division, StrangeFleshTakesNoWitnessFromWhoIsKnown) {
   ASSERT_FALSE(flesh_.strangers().empty());
   ASSERT_TRUE(flesh_.strangers()[0].box_W.contains(Vector3(0, 0, 900)));
   outlines_.Divide(seen.outlines, people, flesh_);
-  EXPECT_GE(outlines_.shares()[0].witnesses, 5);
+  EXPECT_GE(outlines_.shares()[0].cameras, 5);
 }
 
 }  // namespace

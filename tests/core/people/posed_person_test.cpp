@@ -28,7 +28,7 @@ TEST(BelievedFlesh, IsWhatCamerasCannotTellWithinABodyAndNothingElse) {
   flesh.Reset({-10, -10, 0}, {20, 20, 40}, kVoxel_mm);
   const Eigen::Vector3i trunk(10, 10, 24), beside(1, 1, 24), empty(10, 10, 25);
   const std::vector<Eigen::Vector3i> doubtful = {trunk, beside};
-  Sighting room(flesh, {});
+  Observation room(flesh, {});
   room.doubtful = doubtful;
   VoxelGrid memory;
   const std::vector<PosedPerson> known = {StandingBeliever(false)}, lost = {StandingBeliever(true)};

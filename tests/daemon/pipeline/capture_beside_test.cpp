@@ -23,7 +23,8 @@ class Noting : public MotionCapture {
     result_.state = state;
   }
 
-  const CaptureResult& Update(const Sighting&, std::int64_t capture_ns, UpdateObserver*) override {
+  const CaptureResult& Update(const Observation&, std::int64_t capture_ns,
+                              UpdateObserver*) override {
     times_ns_.push_back(capture_ns);
     return result_;
   }

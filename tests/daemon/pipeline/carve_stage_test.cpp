@@ -48,7 +48,7 @@ TEST(CarveStage, WhatIsWatchedLacksCamerasThatAreBlind) {
     stage.Offer(i, frame);
   }
   CarvedSet set;
-  ASSERT_EQ(stage.Next(set), Synchronizer::Verdict::kSet);
+  ASSERT_EQ(stage.Next(set), Synchronizer::Decision::kSet);
   EXPECT_EQ(set.cameras, 0b101u);
   ASSERT_TRUE(tap.queue().TryPop());
   const SeenSet& seen = tap.queue().front();

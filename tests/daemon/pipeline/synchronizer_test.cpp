@@ -41,9 +41,9 @@ std::vector<Set> Match(std::vector<std::deque<std::int64_t>> streams,
       if (!streams[i].empty()) synchronizer.NoteNewest(i, streams[i].front());
       if (!synchronizer.has_front(i)) synchronizer.Expect(i, Expectation::kNone);
     }
-    const Synchronizer::Verdict verdict = synchronizer.Decide();
-    if (verdict == Synchronizer::Verdict::kWait) break;
-    if (verdict == Synchronizer::Verdict::kLetGo) continue;
+    const Synchronizer::Decision decision = synchronizer.Decide();
+    if (decision == Synchronizer::Decision::kWait) break;
+    if (decision == Synchronizer::Decision::kLetGo) continue;
     Set& set = sets.emplace_back(cameras);
     for (int i = 0; i < cameras; ++i) {
       if (synchronizer.members()[i]) set[i] = fronts[i];
@@ -151,7 +151,7 @@ TEST(Synchronizer, SaysHowFarTheTimesOfASetLieApart) {
   synchronizer.Offer(0, 100 * kMs, 0);
   synchronizer.Offer(1, 103 * kMs, 0);
   synchronizer.Offer(2, 98 * kMs, 0);
-  ASSERT_EQ(synchronizer.Decide(), Synchronizer::Verdict::kSet);
+  ASSERT_EQ(synchronizer.Decide(), Synchronizer::Decision::kSet);
   EXPECT_EQ(synchronizer.spread_ns(), 5 * kMs);
   EXPECT_EQ(synchronizer.set_ns(), 100 * kMs);
 }
@@ -160,11 +160,11 @@ TEST(Synchronizer, WaitsForASilentCameraUntilTheOthersHaveRunAhead) {
   Synchronizer synchronizer(3, kPeriod, 2.0);
   synchronizer.Offer(0, 0, 0);
   synchronizer.Offer(1, 0, 0);
-  EXPECT_EQ(synchronizer.Decide(), Synchronizer::Verdict::kWait);
+  EXPECT_EQ(synchronizer.Decide(), Synchronizer::Decision::kWait);
   synchronizer.NoteNewest(2 * kPeriod);
-  EXPECT_EQ(synchronizer.Decide(), Synchronizer::Verdict::kWait);
+  EXPECT_EQ(synchronizer.Decide(), Synchronizer::Decision::kWait);
   synchronizer.NoteNewest(2 * kPeriod + 1);
-  ASSERT_EQ(synchronizer.Decide(), Synchronizer::Verdict::kSet);
+  ASSERT_EQ(synchronizer.Decide(), Synchronizer::Decision::kSet);
   EXPECT_THAT(synchronizer.members(), ElementsAre(true, true, false));
 }
 
@@ -174,20 +174,20 @@ TEST(Synchronizer, WaitsForAFrameThatIsUnderWayHoweverFarTheOthersAre) {
   synchronizer.Offer(1, 0, 0);
   synchronizer.Expect(2, Expectation::kCertain);
   synchronizer.NoteNewest(100 * kPeriod);
-  EXPECT_EQ(synchronizer.Decide(), Synchronizer::Verdict::kWait);
+  EXPECT_EQ(synchronizer.Decide(), Synchronizer::Decision::kWait);
 }
 
 TEST(Synchronizer, DoesNotWaitAgainForACameraThatStaysSilent) {
   Synchronizer synchronizer(3, kPeriod, 2.0);
   for (int i : {0, 1}) synchronizer.Offer(i, 0, 0);
   synchronizer.NoteNewest(3 * kPeriod);
-  ASSERT_EQ(synchronizer.Decide(), Synchronizer::Verdict::kSet);
+  ASSERT_EQ(synchronizer.Decide(), Synchronizer::Decision::kSet);
   for (int i : {0, 1}) synchronizer.Offer(i, 3 * kPeriod, 3);
-  EXPECT_EQ(synchronizer.Decide(), Synchronizer::Verdict::kSet);
+  EXPECT_EQ(synchronizer.Decide(), Synchronizer::Decision::kSet);
   for (int i : {0, 1, 2}) synchronizer.Offer(i, 4 * kPeriod, 4);
-  EXPECT_EQ(synchronizer.Decide(), Synchronizer::Verdict::kSet);
+  EXPECT_EQ(synchronizer.Decide(), Synchronizer::Decision::kSet);
   for (int i : {0, 1}) synchronizer.Offer(i, 5 * kPeriod, 5);
-  EXPECT_EQ(synchronizer.Decide(), Synchronizer::Verdict::kWait) << "it had come back";
+  EXPECT_EQ(synchronizer.Decide(), Synchronizer::Decision::kWait) << "it had come back";
 }
 
 TEST(Synchronizer, LetsFramesGoWhoseSetWentWithoutThem) {
@@ -195,14 +195,14 @@ TEST(Synchronizer, LetsFramesGoWhoseSetWentWithoutThem) {
   synchronizer.Offer(0, 0, 0);
   synchronizer.Offer(1, 1 * kMs, 0);
   synchronizer.NoteNewest(kPeriod);
-  ASSERT_EQ(synchronizer.Decide(), Synchronizer::Verdict::kSet);
+  ASSERT_EQ(synchronizer.Decide(), Synchronizer::Decision::kSet);
   for (int i : {0, 1}) synchronizer.Offer(i, kPeriod, 0);
   for (int i : {2, 3}) synchronizer.Offer(i, 2 * kMs, 0);
   for (int i = 0; i < 2; ++i) {
-    ASSERT_EQ(synchronizer.Decide(), Synchronizer::Verdict::kLetGo);
+    ASSERT_EQ(synchronizer.Decide(), Synchronizer::Decision::kLetGo);
     synchronizer.Offer(synchronizer.camera(), kPeriod, 0);
   }
-  ASSERT_EQ(synchronizer.Decide(), Synchronizer::Verdict::kSet);
+  ASSERT_EQ(synchronizer.Decide(), Synchronizer::Decision::kSet);
   EXPECT_THAT(synchronizer.members(), Each(true));
   EXPECT_EQ(synchronizer.set_ns(), kPeriod);
   EXPECT_EQ(synchronizer.late(2), 1);
@@ -211,7 +211,7 @@ TEST(Synchronizer, LetsFramesGoWhoseSetWentWithoutThem) {
 TEST(Synchronizer, RefusesTimesThatGoBack) {
   Synchronizer synchronizer(1, kPeriod, Synchronizer::kWaitForever);
   EXPECT_TRUE(synchronizer.Offer(0, 5, 0));
-  ASSERT_EQ(synchronizer.Decide(), Synchronizer::Verdict::kSet);
+  ASSERT_EQ(synchronizer.Decide(), Synchronizer::Decision::kSet);
   EXPECT_FALSE(synchronizer.Offer(0, 5, 0));
   EXPECT_FALSE(synchronizer.has_front(0));
   EXPECT_EQ(synchronizer.late(0), 1);
@@ -239,9 +239,9 @@ TEST(Synchronizer, OneStampFarInTheFutureCostsOneFrame) {
   synchronizer.NoteNewest(1, kPeriod);
   EXPECT_FALSE(synchronizer.has_front(0)) << "its camera is elsewhere by now";
   ASSERT_TRUE(synchronizer.Offer(0, kPeriod, 1));
-  ASSERT_EQ(synchronizer.Decide(), Synchronizer::Verdict::kLetGo);
+  ASSERT_EQ(synchronizer.Decide(), Synchronizer::Decision::kLetGo);
   ASSERT_TRUE(synchronizer.Offer(1, kPeriod, 1));
-  EXPECT_EQ(synchronizer.Decide(), Synchronizer::Verdict::kSet);
+  EXPECT_EQ(synchronizer.Decide(), Synchronizer::Decision::kSet);
   EXPECT_EQ(synchronizer.set_ns(), kPeriod);
   EXPECT_EQ(synchronizer.late(0), 1);
 }

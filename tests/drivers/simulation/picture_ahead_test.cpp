@@ -7,8 +7,8 @@
 #include <cstdint>
 #include <memory>
 
-#include "drivers/simulation/scene.h"
 #include "drivers/simulation/simulated_studio.h"
+#include "drivers/virtual_studio/scene.h"
 #include "tests/support/pixels.h"
 
 namespace mocap {

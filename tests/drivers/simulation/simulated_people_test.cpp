@@ -6,8 +6,9 @@
 #include <string>
 #include <vector>
 
-#include "drivers/simulation/scene.h"
 #include "drivers/simulation/simulated_studio.h"
+#include "drivers/virtual_studio/scene.h"
+#include "drivers/virtual_studio/truth.h"
 #include "tests/support/pixels.h"
 
 namespace mocap {

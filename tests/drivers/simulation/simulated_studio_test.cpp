@@ -10,8 +10,9 @@
 #include <thread>
 
 #include "core/errors.h"
-#include "drivers/simulation/motion.h"
-#include "drivers/simulation/scene.h"
+#include "drivers/virtual_studio/motions/motion.h"
+#include "drivers/virtual_studio/scene.h"
+#include "drivers/virtual_studio/truth.h"
 #include "tests/support/pixels.h"
 
 namespace mocap {

@@ -5,7 +5,7 @@
 #include <cstdlib>
 #include <vector>
 
-#include "drivers/simulation/random.h"
+#include "drivers/virtual_studio/random.h"
 #include "tests/support/pixels.h"
 
 namespace mocap {

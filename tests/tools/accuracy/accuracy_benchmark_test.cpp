@@ -7,7 +7,7 @@
 #include <set>
 #include <vector>
 
-#include "drivers/simulation/camera_rig.h"
+#include "drivers/virtual_studio/room/camera_rig.h"
 #include "tools/accuracy/accuracy_report.h"
 #include "tools/accuracy/sweep_plan.h"
 

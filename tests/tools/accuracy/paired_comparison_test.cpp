@@ -45,8 +45,8 @@ TEST(PairedComparison, WhatHelpsMostPeopleIsBetterAndTheOppositeIsWorse) {
   EXPECT_GT(difference.high_mm, difference.difference_mm());
   // Of a mean of 20 with a standard deviation of 0.41 mm.
   EXPECT_NEAR(difference.high_mm - difference.low_mm, 2 * 1.96 * 0.41 / 4.47, 0.03);
-  EXPECT_EQ(difference.verdict(), PairedVerdict::kBetter);
-  EXPECT_EQ(Only(ComparePaired(after, before)).verdict(), PairedVerdict::kWorse);
+  EXPECT_EQ(difference.conclusion(), PairedConclusion::kBetter);
+  EXPECT_EQ(Only(ComparePaired(after, before)).conclusion(), PairedConclusion::kWorse);
 }
 
 TEST(PairedComparison, WhatHelpsOneAsMuchAsItHarmsAnotherIsNoDifference) {
@@ -54,16 +54,16 @@ TEST(PairedComparison, WhatHelpsOneAsMuchAsItHarmsAnotherIsNoDifference) {
     return mean_mm + (person % 2 == 0 ? 20 : -20);
   };
   const std::vector<ScoreRow> before = People(Same), after = People(exchanges);
-  EXPECT_EQ(Only(ComparePaired(before, after)).verdict(), PairedVerdict::kNoDifference);
-  EXPECT_EQ(Only(ComparePaired(before, before)).verdict(), PairedVerdict::kNoDifference);
+  EXPECT_EQ(Only(ComparePaired(before, after)).conclusion(), PairedConclusion::kNoDifference);
+  EXPECT_EQ(Only(ComparePaired(before, before)).conclusion(), PairedConclusion::kNoDifference);
 }
 
-TEST(PairedComparison, FivePeopleAreTooFewForAVerdict) {
+TEST(PairedComparison, FivePeopleAreTooFewForAConclusion) {
   std::vector<ScoreRow> before = People(Same);
   before.resize(5);
   std::vector<ScoreRow> after = before;
   for (ScoreRow& row : after) row.errors->mean_mm -= 10;
-  EXPECT_EQ(Only(ComparePaired(before, after)).verdict(), PairedVerdict::kTooFew);
+  EXPECT_EQ(Only(ComparePaired(before, after)).conclusion(), PairedConclusion::kTooFew);
 }
 
 TEST(PairedComparison, RunsOfAPersonCountAsOne) {

@@ -6,7 +6,7 @@
 #include <functional>
 
 #include "core/errors.h"
-#include "drivers/simulation/camera_rig.h"
+#include "drivers/virtual_studio/room/camera_rig.h"
 #include "tests/support/setup_error.h"
 #include "tests/support/temporary_folder.h"
 

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "core/reconstruction/camera/camera_model.h"
-#include "drivers/simulation/camera_rig.h"
+#include "drivers/virtual_studio/room/camera_rig.h"
 #include "tools/calibration/detections.h"
 
 namespace mocap::testing {

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "drivers/simulation/printed_board.h"
+#include "drivers/virtual_studio/room/printed_board.h"
 #include "tools/calibration/board_detector.h"
 
 namespace mocap {

@@ -2,7 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "core/errors.h"
-#include "drivers/simulation/printed_board.h"
+#include "drivers/virtual_studio/room/printed_board.h"
 #include "tests/support/setup_error.h"
 #include "tests/tools/calibration/simulated_board.h"
 #include "tools/calibration/extrinsics.h"
@@ -196,7 +196,7 @@ TEST(StudioCheckTest, SeesAFloorThatIsUpsideDown) {
   ASSERT_FALSE(findings.empty());
   EXPECT_EQ(findings[0].severity, Severity::kWrong);
   EXPECT_THAT(findings[0].text, HasSubstr("below the floor"));
-  EXPECT_THAT(Verdict(findings), HasSubstr("Do not use"));
+  EXPECT_THAT(Conclusion(findings), HasSubstr("Do not use"));
 }
 
 TEST(FloorTest, SetsTheWorldFromThreePoints) {

@@ -9,9 +9,9 @@
 #include <opencv2/core.hpp>
 
 #include "core/errors.h"
-#include "drivers/simulation/printed_board.h"
 #include "drivers/take/calibration_file.h"
 #include "drivers/take/video_writer.h"
+#include "drivers/virtual_studio/room/printed_board.h"
 #include "tests/support/setup_error.h"
 #include "tests/support/temporary_folder.h"
 #include "tests/tools/calibration/board_picture.h"

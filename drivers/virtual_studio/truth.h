@@ -1,0 +1,36 @@
+// True joint positions and sizes of the people of a simulated studio.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "drivers/take/take_writer.h"
+#include "drivers/virtual_studio/people/skeleton.h"
+#include "drivers/virtual_studio/studio_options.h"
+
+namespace mocap {
+
+/// p_WQ of the points named by kSimulatedJointNames [mm].
+using JointPositions = simulation::TruePoints;
+inline constexpr auto& kSimulatedJointNames = simulation::kTruthPointNames;
+
+namespace simulation {
+class Person;
+}
+
+/// True joint positions of the simulated people, numbered from 0. Reentrant.
+class SimulatedTruth {
+ public:
+  /// @throws SetupError  for invalid options.
+  explicit SimulatedTruth(const SimulatedStudioOptions& options);
+  ~SimulatedTruth();
+  SimulatedTruth(SimulatedTruth&&) noexcept;
+
+  JointPositions At(std::int64_t capture_ns, int person = 0) const;
+  TruthSizes Sizes(int person = 0) const;
+
+ private:
+  std::vector<simulation::Person> people_;
+};
+
+}  // namespace mocap
