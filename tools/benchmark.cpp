@@ -126,9 +126,9 @@ void RunBenchmark(const BenchmarkOptions& options) {
   const std::vector<ScoreRow> scores = ScoresOf(variety, takes);
   if (!scores.empty()) ReplaceText(options.out / "scores.csv", ScoreCsv(scores));
   if (!benchmark.sweeps.empty()) {
-    ReplaceText(options.out / "accuracy.svg", AccuracySweepsSvg(benchmark.sweeps));
+    ReplaceText(options.out / "accuracy.html", AccuracySweepsHtml(benchmark.sweeps));
   }
-  if (!evidence.empty()) ReplaceText(options.out / "evidence.svg", EvidenceSvg(evidence));
+  if (!evidence.empty()) ReplaceText(options.out / "evidence.html", EvidenceHtml(evidence));
 }
 
 void AddTakeOptions(CLI::App& command, BenchmarkOptions& options) {

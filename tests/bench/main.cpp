@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "tools/report/svg_plot.h"
+#include "tools/report/report_page.h"
 
 namespace mocap::bench {
 namespace {
@@ -63,11 +63,21 @@ void PrintComparisons(const Results& results) {
 }
 
 // One curve, from what was measured at each value.
-PlotSeries Growth(const Results& results, const std::string& label, int color,
-                  const std::vector<std::pair<double, std::string>>& measured) {
-  PlotSeries series{.label = label, .points = {}, .color = color};
-  for (const auto& [at, name] : measured) series.points.emplace_back(at, results.Us(name) / 1e3);
-  return series;
+Json Growth(const Results& results, const std::string& label, int figure,
+            const std::vector<std::pair<double, std::string>>& measured) {
+  Json x = Json::array(), y = Json::array();
+  for (const auto& [at, name] : measured) {
+    x.push_back(at);
+    y.push_back(Rounded(results.Us(name) / 1e3));
+  }
+  return Series(label, figure, "line", y, {{"x", x}});
+}
+
+Json PlotOf(const std::string& x_label, const std::string& y_label, const Json& series) {
+  return {{"x", {{"label", x_label}}},
+          {"y", {{"label", y_label}}},
+          {"height", 170},
+          {"series", series}};
 }
 
 std::string GrowthPlots(const Results& results) {
@@ -84,18 +94,15 @@ std::string GrowthPlots(const Results& results) {
   }
   for (const int mm : {10, 15, 25, 50}) by_voxel.emplace_back(mm, carve(480, mm, 6));
   for (const int cameras : {2, 4, 6, 8}) by_cameras.emplace_back(cameras, carve(480, 25, cameras));
-  const std::vector<std::pair<std::string, std::vector<PlotSeries>>> plots = {
-      {"resolution [megapixels]",
-       {Growth(results, "segmentation of a frame", 0, segment),
-        Growth(results, "carving of six", 1, by_height)}},
-      {"edge of a voxel [mm]", {Growth(results, "carving of six", 1, by_voxel)}},
-      {"cameras", {Growth(results, "carving, 25 mm", 1, by_cameras)}}};
-  std::vector<std::string> drawn;
-  const PlotAxes size;
-  for (const auto& [x_label, series] : plots) {
-    drawn.push_back(PlotSvg({.x_label = x_label, .y_label = "ms"}, series));
-  }
-  return StackedSvg(drawn, size.width, size.height);
+  const Json plots = {
+      PlotOf("resolution [megapixels]", "ms",
+             {Growth(results, "segmentation of a frame", 0, segment),
+              Growth(results, "carving of six", 1, by_height)}),
+      PlotOf("edge of a voxel [mm]", "ms",
+             Json::array({Growth(results, "carving of six", 1, by_voxel)})),
+      PlotOf("cameras", "ms", Json::array({Growth(results, "carving, 25 mm", 1, by_cameras)}))};
+  return ReportHtml("How cost grows", "processor time",
+                    Json::array({Figure("Cost", "of one frame set", plots)}));
 }
 
 std::string ManyCamerasPlots(const Results& results) {
@@ -105,15 +112,14 @@ std::string ManyCamerasPlots(const Results& results) {
       measured.emplace_back(cameras, benchmark + "/cameras:" + std::to_string(cameras));
     return Growth(results, label, color, measured);
   };
-  const std::vector<std::vector<PlotSeries>> plots = {
-      {of("carving", 1, "CarveManySets"), of("tracking", 0, "TrackManySets"),
-       of("shadows", 2, "CompleteManySets"), of("matching by time", 3, "MatchManySets")},
-      {of("one look of the health watch", 0, "CheckManyCameras")}};
-  std::vector<std::string> drawn;
-  const PlotAxes size;
-  for (const std::vector<PlotSeries>& series : plots)
-    drawn.push_back(PlotSvg({.x_label = "cameras", .y_label = "ms a set"}, series));
-  return StackedSvg(drawn, size.width, size.height);
+  const Json plots = {
+      PlotOf("cameras", "ms a set",
+             {of("carving", 1, "CarveManySets"), of("tracking", 0, "TrackManySets"),
+              of("shadows", 2, "CompleteManySets"), of("matching by time", 3, "MatchManySets")}),
+      PlotOf("cameras", "ms a set",
+             Json::array({of("one look of the health watch", 0, "CheckManyCameras")}))};
+  return ReportHtml("The cost of many cameras", "processor time",
+                    Json::array({Figure("Cost", "of a frame set", plots)}));
 }
 
 // Takes one of our own options out of the command line.

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <vector>
 
-#include "tools/report/svg_plot.h"
+#include "tools/report/report_page.h"
 
 namespace mocap {
 namespace {
@@ -136,7 +136,7 @@ std::string AccuracyMarkdown(const AccuracyBenchmark& benchmark) {
   if (!benchmark.sweeps.empty()) {
     text +=
         "\n## What makes it worse\nEach line is the mean over walking, dancing and sitting "
-        "down.\n\n![Mean error along each sweep](accuracy.svg)\n";
+        "down.\n\n[Mean error along each sweep](accuracy.html)\n";
     for (const AccuracySweep& sweep : benchmark.sweeps) text += SweepTable(sweep);
   }
   if (!benchmark.studios.steps.empty()) {
@@ -151,21 +151,23 @@ std::string AccuracyMarkdown(const AccuracyBenchmark& benchmark) {
   return text;
 }
 
-std::string AccuracySweepsSvg(std::span<const AccuracySweep> sweeps) {
-  std::vector<std::string> plots;
+std::string AccuracySweepsHtml(std::span<const AccuracySweep> sweeps) {
+  Json plots = Json::array();
   for (const AccuracySweep& sweep : sweeps) {
-    PlotAxes axes{.x_label = sweep.what, .y_label = "mm", .width = 480, .height = 180};
-    PlotSeries mean{.label = "mean", .points = {}, .color = 0};
-    PlotSeries p95{.label = "95 % below", .points = {}, .color = 1};
+    Json names = Json::array(), mean = Json::array(), p95 = Json::array();
     for (const auto& [label, summary] : sweep.steps) {
-      const auto x = static_cast<double>(axes.x_names.size());
-      axes.x_names.push_back(label);
-      mean.points.emplace_back(x, summary.mpjpe_mm);
-      p95.points.emplace_back(x, summary.p95_mm);
+      names.push_back(label);
+      mean.push_back(Rounded(summary.mpjpe_mm));
+      p95.push_back(Rounded(summary.p95_mm));
     }
-    plots.push_back(PlotSvg(axes, std::vector{mean, p95}));
+    plots.push_back(
+        {{"x", {{"label", sweep.what}, {"names", names}, {"first", 0}}},
+         {"y", {{"label", "mm"}}},
+         {"height", 110},
+         {"series", {Series("mean", 0, "line", mean), Series("95 % below", 1, "line", p95)}}});
   }
-  return StackedSvg(plots, 480, 180);
+  return ReportHtml("What makes it worse", "mean over walking, dancing and sitting down",
+                    Json::array({Figure("Mean error", "along each sweep", plots)}));
 }
 
 }  // namespace mocap

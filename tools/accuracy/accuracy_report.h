@@ -22,10 +22,10 @@ std::string PeopleLine(const PeopleRow& row);
 /// Means and extremes. @param rows  at least one.
 std::string PeopleSummaryText(std::span<const PeopleRow> rows);
 
-/// A page with all tables. If there were sweeps, it shows accuracy.svg, which lies beside it.
+/// A page with all tables. If there were sweeps, it links to accuracy.html, which lies beside it.
 std::string AccuracyMarkdown(const AccuracyBenchmark& benchmark);
 
-/// Plots the errors along each sweep, as an SVG file.
-std::string AccuracySweepsSvg(std::span<const AccuracySweep> sweeps);
+/// Plots the errors along each sweep, as a page.
+std::string AccuracySweepsHtml(std::span<const AccuracySweep> sweeps);
 
 }  // namespace mocap

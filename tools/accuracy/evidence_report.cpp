@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "tools/report/svg_plot.h"
+#include "tools/report/report_page.h"
 
 namespace mocap {
 namespace {
@@ -46,28 +46,24 @@ bool IsWorseThanWithFewer(const EvidenceSummary& kind, std::span<const EvidenceS
 }
 
 // The errors of one crf; the last series are those that rise.
-std::vector<PlotSeries> LinesOf(const std::optional<int>& crf,
-                                std::span<const EvidenceSummary> kinds) {
-  std::vector<PlotSeries> lines;
-  PlotSeries rises{.label = fmt::format("rises by more than {:.0f} mm", kMostRise_mm),
-                   .points = {},
-                   .color = static_cast<int>(kEvidenceContrasts.size()),
-                   .mark = PlotMark::kCrosses};
+Json LinesOf(const std::optional<int>& crf, std::span<const EvidenceSummary> kinds) {
+  Json lines = Json::array(), x = Json::array(), rises = Json::array();
   for (const double contrast : kEvidenceContrasts) {
-    PlotSeries line{.label = fmt::format("{}{:.0f}", lines.empty() ? "contrast " : "", contrast),
-                    .points = {},
-                    .color = static_cast<int>(lines.size())};
+    Json errors = Json::array(), places = Json::array();
     for (const EvidenceSummary& kind : kinds) {
       if (kind.kind.contrast != contrast || kind.kind.crf != crf) continue;
       const auto place = std::ranges::find(kEvidenceCameras, kind.kind.cameras);
-      line.points.emplace_back(static_cast<double>(place - kEvidenceCameras.begin()),
-                               kind.is_tracked() ? kind.error_mm() : kPlotGap);
-      if (kind.is_tracked() && IsWorseThanWithFewer(kind, kinds))
-        rises.points.push_back(line.points.back());
+      places.push_back(place - kEvidenceCameras.begin());
+      errors.push_back(kind.is_tracked() ? Rounded(kind.error_mm()) : Json());
+      if (!kind.is_tracked() || !IsWorseThanWithFewer(kind, kinds)) continue;
+      x.push_back(places.back());
+      rises.push_back(errors.back());
     }
-    lines.push_back(std::move(line));
+    lines.push_back(Series(fmt::format("{}{:.0f}", lines.empty() ? "contrast " : "", contrast),
+                           static_cast<int>(lines.size()), "line", errors, {{"x", places}}));
   }
-  lines.push_back(std::move(rises));
+  lines.push_back(Series(fmt::format("rises by more than {:.0f} mm", kMostRise_mm),
+                         static_cast<int>(lines.size()), "crosses", rises, {{"x", x}}));
   return lines;
 }
 
@@ -153,23 +149,24 @@ std::string EvidenceMarkdown(std::span<const EvidenceRow> rows, double seconds) 
              "the shirt or the trousers. {} takes of {:.0f} s. "
              "*Hull*\nis the volume that is carved, as a share of the hull of the true masks of "
              "the same cameras. *Unknown* is the share of unknown pixels where cameras show the "
-             "person.\n\n![Mean error by number of cameras](evidence.svg)\n",
+             "person.\n\n[Mean error by number of cameras](evidence.html)\n",
              rows.size(), seconds) +
          EvidenceTable(rows);
 }
 
-std::string EvidenceSvg(std::span<const EvidenceRow> rows) {
+std::string EvidenceHtml(std::span<const EvidenceRow> rows) {
   const std::vector<EvidenceSummary> kinds = SummarizeEvidence(rows);
-  std::vector<std::string> plots;
+  Json plots = Json::array(), names = Json::array();
+  for (const int cameras : kEvidenceCameras) names.push_back(std::to_string(cameras));
   for (const std::optional<int>& crf : kEvidenceCrfs) {
-    PlotAxes axes{.x_label = fmt::format("cameras, crf {}", CrfText(crf)),
-                  .y_label = "mm",
-                  .width = 480,
-                  .height = 180};
-    for (const int cameras : kEvidenceCameras) axes.x_names.push_back(std::to_string(cameras));
-    plots.push_back(PlotSvg(axes, LinesOf(crf, kinds)));
+    plots.push_back(
+        {{"x", {{"label", fmt::format("cameras, crf {}", CrfText(crf))}, {"names", names}}},
+         {"y", {{"label", "mm"}}},
+         {"height", 110},
+         {"series", LinesOf(crf, kinds)}});
   }
-  return StackedSvg(plots, 480, 180);
+  return ReportHtml("Weak evidence", "mean error by number of cameras",
+                    Json::array({Figure("Mean error", "by number of cameras", plots)}));
 }
 
 }  // namespace mocap

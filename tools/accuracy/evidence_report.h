@@ -50,10 +50,10 @@ std::string EvidenceLine(const EvidenceRow& row);
 /// A Markdown table, with a line for each contrast and crf, and the largest rise; nothing without
 /// rows.
 std::string EvidenceTable(std::span<const EvidenceRow> rows);
-/// The same as a chapter of a page. It shows evidence.svg, which lies beside it.
+/// The same as a chapter of a page. It links to evidence.html, which lies beside it.
 std::string EvidenceMarkdown(std::span<const EvidenceRow> rows, double seconds);
-/// Plots the errors over the number of cameras, as an SVG file: a plot for each crf and a line for
+/// Plots the errors over the number of cameras, as a page: a plot for each crf and a line for
 /// each contrast. Crosses mark those that are larger than with fewer cameras, by kMostRise_mm.
-std::string EvidenceSvg(std::span<const EvidenceRow> rows);
+std::string EvidenceHtml(std::span<const EvidenceRow> rows);
 
 }  // namespace mocap

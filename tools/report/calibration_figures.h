@@ -1,4 +1,4 @@
-// Figures of the calibration report, as inline SVG.
+// Figures of the calibration report.
 #pragma once
 
 #include <string>
@@ -7,13 +7,16 @@
 #include "tools/calibration/bundle_errors.h"
 #include "tools/calibration/extrinsics.h"
 #include "tools/calibration/studio_check.h"
+#include "tools/report/report_page.h"
 
 namespace mocap {
 
-/// Draws the positions of a camera's observed corners, and their errors, enlarged.
-std::string CoverageSvg(const StudioFit& fit, int camera, const std::vector<CornerError>& errors);
+/// The positions of a camera's observed corners, and their errors, enlarged.
+/// @param hint  what is still missing; may be empty.
+Json CoverageFigure(const StudioFit& fit, int camera, const std::vector<CornerError>& errors,
+                    const std::string& hint);
 
-/// Draws the room from above: cameras with their fields of view, and how many see each place.
-std::string RoomPlanSvg(const std::vector<CameraCalibration>& cameras, const SeenVolume& volume);
+/// The room from above: cameras with their fields of view, and how many see each place.
+Json RoomPlan(const std::vector<CameraCalibration>& cameras, const SeenVolume& volume);
 
 }  // namespace mocap

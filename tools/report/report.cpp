@@ -10,9 +10,7 @@
 #include "core/reconstruction/carving/unknown_share.h"
 #include "drivers/printable_text.h"
 #include "tools/report/report_figures.h"
-#include "tools/report/report_sections.h"
-#include "tools/report/report_views.h"
-#include "tools/report/svg_plot.h"
+#include "tools/report/report_pictures.h"
 #include "tools/results/export_axes.h"
 
 namespace mocap {
@@ -26,80 +24,46 @@ const PoseRow& RowAt(const Evaluation& evaluation, const SampledMoment& moment) 
   return *std::ranges::find(evaluation.result.poses, moment.timestamp_ns, &PoseRow::timestamp_ns);
 }
 
-std::string AccuracyTiles(const Evaluation& evaluation) {
-  const Accuracy& accuracy = *evaluation.accuracy;
+void AddAccuracyTiles(const Accuracy& accuracy, Json& tiles) {
   const DistanceSummary& d = accuracy.distance_mm;
-  return Tile("Error of 14 points", fmt::format("{:.1f}", d.mean), " mm",
-              fmt::format("median {:.1f}, 95 % below {:.1f}, worst {:.0f}", d.median, d.p95,
-                          d.worst)) +
-         Tile("Spread", fmt::format("{:.1f}", accuracy.spread_mm), " mm",
-              "without each point’s own offset") +
-         Tile("Error of 8 angles", fmt::format("{:.2f}", accuracy.mean_angle_rad * kDegreesPerRad),
-              "°", "mean absolute") +
-         Tile("Head found", fmt::format("{:.1f}", 100 * accuracy.head_found_share), " %",
-              fmt::format("within {:.0f} mm", kHeadFoundMm));
+  tiles.push_back(Tile(
+      "Error of 14 points", Rounded(d.mean), 1, "mm",
+      fmt::format("median {:.1f}, 95 % below {:.1f}, worst {:.0f}", d.median, d.p95, d.worst)));
+  tiles.push_back(
+      Tile("Spread", Rounded(accuracy.spread_mm), 1, "mm", "without each point’s own offset"));
+  tiles.push_back(Tile("Error of 8 angles", Rounded(accuracy.mean_angle_rad * kDegreesPerRad), 2,
+                       "°", "mean absolute"));
+  tiles.push_back(Tile("Head found", Rounded(100 * accuracy.head_found_share), 1, "%",
+                       fmt::format("within {:.0f} mm", kHeadFoundMm)));
 }
 
-std::string Tiles(const Evaluation& evaluation, const std::vector<CameraOverlap>& overlaps) {
-  const BodyRecord& body = evaluation.result.body;
-  std::string tiles = "<div class=\"tiles\">";
-  if (evaluation.accuracy && !evaluation.accuracy->frames.empty()) {
-    tiles += AccuracyTiles(evaluation);
-  }
-  tiles += Tile("Tracked", fmt::format("{:.1f}", 100 * evaluation.tracked_share), " %",
-                evaluation.first_tracked_pose < 0
-                    ? "never"
-                    : fmt::format("from frame {} on",
-                                  evaluation.result.poses[evaluation.first_tracked_pose].frame));
+Json TilesOf(const Evaluation& evaluation, const std::vector<CameraOverlap>& overlaps) {
+  const int first = evaluation.first_tracked_pose;
+  Json tiles = Json::array();
+  if (evaluation.accuracy && !evaluation.accuracy->frames.empty())
+    AddAccuracyTiles(*evaluation.accuracy, tiles);
+  tiles.push_back(Tile(
+      "Tracked", Rounded(100 * evaluation.tracked_share), 1, "%",
+      first < 0 ? "never" : fmt::format("from frame {} on", evaluation.result.poses[first].frame)));
   if (const auto& precision = evaluation.precision) {
-    tiles += Tile("Precision of angles",
-                  fmt::format("{:.2f}", precision->mean_angle_rad * kDegreesPerRad), "°",
-                  "against the smoothed curve") +
-             Tile("Precision of points", fmt::format("{:.1f}", precision->mean_point_mm), " mm",
-                  "against the smoothed path");
+    tiles.push_back(Tile("Precision of angles", Rounded(precision->mean_angle_rad * kDegreesPerRad),
+                         2, "°", "against the smoothed curve"));
+    tiles.push_back(Tile("Precision of points", Rounded(precision->mean_point_mm), 1, "mm",
+                         "against the smoothed path"));
   }
+  double overlap = 0;
+  for (const CameraOverlap& one : overlaps) overlap += 100 * one.mean();
   if (!overlaps.empty()) {
-    double mean = 0;
-    for (const CameraOverlap& overlap : overlaps) {
-      mean += overlap.mean() / static_cast<double>(overlaps.size());
-    }
-    tiles += Tile("Hull overlap", fmt::format("{:.1f}", 100 * mean), " %",
-                  "voxels against silhouettes, IoU");
+    tiles.push_back(Tile("Hull overlap", Rounded(overlap / static_cast<double>(overlaps.size())), 1,
+                         "%", "voxels against silhouettes, IoU"));
   }
-  if (evaluation.first_tracked_pose >= 0) {
-    tiles += Tile("Stature", fmt::format("{:.0f}", body.stature_mm), " mm",
-                  evaluation.truth ? fmt::format("true: {:.0f} mm", evaluation.truth->stature_mm)
-                                   : "as acquired");
+  if (first >= 0) {
+    tiles.push_back(Tile("Stature", Rounded(evaluation.result.body.stature_mm), 0, "mm",
+                         evaluation.truth
+                             ? fmt::format("true: {:.0f} mm", evaluation.truth->stature_mm)
+                             : "as acquired"));
   }
-  return tiles + "</div>\n";
-}
-
-std::string ViewsSection(const Evaluation& evaluation, const TakeSamples& samples,
-                         const std::vector<CameraOverlap>& overlaps) {
-  std::string html;
-  for (std::size_t m = 0; m < samples.moments.size(); ++m) {
-    const SampledMoment& moment = samples.moments[m];
-    const PoseRow& row = RowAt(evaluation, moment);
-    const ViewedBody body{row, evaluation.result.body.sizes};
-    std::string views;
-    for (std::size_t c = 0; c < samples.cameras.size(); ++c) {
-      const auto& view = moment.views[c];
-      if (!view || view->image.empty()) continue;
-      views += fmt::format("<div>{}{} · IoU {:.0f} %</div>",
-                           CameraViewSvg(samples.cameras[c], *view, std::span(&body, 1)),
-                           EscapeHtml(samples.cameras[c].name), 100 * overlaps[c].iou[m]);
-    }
-    if (views.empty()) continue;
-    const double seconds =
-        1e-9 * static_cast<double>(row.timestamp_ns - evaluation.result.poses[0].timestamp_ns);
-    html += fmt::format("<h3>Frame {}, {:.2f} s, {}</h3><div class=\"views\">{}</div>\n", row.frame,
-                        seconds, kCaptureStateNames[static_cast<std::size_t>(row.state)], views);
-  }
-  if (html.empty()) html = "<p>No frame of the take has the time of a frame of the result.</p>\n";
-  return "<h2>Camera views</h2>\n<p class=\"key\">" + TrimapKey() +
-         "<span><i class=\"left\"></i>the person’s left</span><span><i class=\"right\"></i>right"
-         "</span></p>\n" +
-         html;
+  return Tiles(tiles);
 }
 
 std::optional<double> MeanUnknownShare(const TakeSamples& samples, std::size_t camera) {
@@ -160,6 +124,17 @@ std::vector<CameraOverlap> MeasureOverlaps(const TakeSamples& samples) {
   return overlaps;
 }
 
+Json StateBand(const std::string& name, int figure, const Evaluation& evaluation) {
+  Json states = Json::array();
+  for (const PoseRow& row : evaluation.result.poses) states.push_back(static_cast<int>(row.state));
+  return {{"name", name},
+          {"figure", figure},
+          {"x", FrameAxis(evaluation)},
+          {"states", std::move(states)}};
+}
+
+Json StateBands(Json people) { return {{"type", "states"}, {"people", std::move(people)}}; }
+
 std::string ReportHtml(const Evaluation& evaluation, const TakeSamples& samples,
                        const std::vector<CameraOverlap>& overlaps) {
   const std::vector<PoseRow>& poses = evaluation.result.poses;
@@ -167,22 +142,28 @@ std::string ReportHtml(const Evaluation& evaluation, const TakeSamples& samples,
       poses.empty()
           ? 0
           : 1e-9 * static_cast<double>(poses.back().timestamp_ns - poses.front().timestamp_ns);
-  const std::string under = fmt::format(
-      "{} in {:.1f} s from {} · body “{}”{}", Counted(poses.size(), "frame"), seconds,
-      Counted(samples.cameras.size(), "camera"), EscapeHtml(evaluation.result.body.model),
-      evaluation.truth ? "" : " · no truth: precision only, no accuracy");
+  const std::string under =
+      fmt::format("{} in {:.1f} s from {} · body “{}”{}", Counted(poses.size(), "frame"), seconds,
+                  Counted(samples.cameras.size(), "camera"), evaluation.result.body.model,
+                  evaluation.truth ? "" : " · no truth: precision only, no accuracy");
   std::vector<double> frames;
-  for (const SampledMoment& moment : samples.moments) {
+  for (const SampledMoment& moment : samples.moments)
     frames.push_back(static_cast<double>(RowAt(evaluation, moment).frame));
-  }
-  std::string body = Tiles(evaluation, overlaps) + StateTimeline(evaluation) +
-                     ViewsSection(evaluation, samples, overlaps);
-  if (evaluation.first_tracked_pose >= 0) {
-    body += TrackingSections(evaluation, samples);
-  } else {
-    body += "<p>The person was never tracked, so there are no poses to evaluate.</p>\n";
-  }
-  return ReportPage(evaluation.take, under, body + OverlapSection(frames, overlaps));
+  Json sections = {TilesOf(evaluation, overlaps),
+                   StateBands(Json::array({StateBand("", kPlainFigure, evaluation)})),
+                   Heading("Camera views")};
+  sections.push_back(PictureSection(
+      samples, overlaps, poses.empty() ? 0 : poses.front().timestamp_ns, [&](std::int64_t time_ns) {
+        const auto row = std::ranges::find(poses, time_ns, &PoseRow::timestamp_ns);
+        return std::vector<ViewedBody>{{*row, evaluation.result.body.sizes}};
+      }));
+  if (evaluation.first_tracked_pose >= 0)
+    Append(TrackingSections(evaluation, samples), sections);
+  else
+    sections.push_back(
+        Paragraph("The person was never tracked, so there are no poses to evaluate."));
+  Append(OverlapSections(frames, overlaps), sections);
+  return ReportHtml(evaluation.take, under, sections);
 }
 
 }  // namespace mocap

@@ -1,15 +1,14 @@
 // The report of `mocap evaluate`: one self-contained HTML file.
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <span>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include "tools/report/evaluation.h"
 #include "tools/report/hull_overlap.h"
+#include "tools/report/report_page.h"
 #include "tools/take_samples.h"
 
 namespace mocap {
@@ -26,11 +25,9 @@ std::vector<SampleRequest> ChooseReportMoments(std::span<const std::int64_t> tim
 /// Measures the overlap of each moment's voxels with each camera's silhouette.
 std::vector<CameraOverlap> MeasureOverlaps(const TakeSamples& samples);
 
-/// Beginnings of our pages; other files are not overwritten.
-inline constexpr std::array<std::string_view, 2> kReportBeginnings = {
-    "<!doctype html><!-- written by mocap -->",
-    "<!doctype html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"><meta name=\"viewport\" "
-    "content=\"width=device-width,initial-scale=1\"><title>"};
+/// The states of a person's frames, as a band. @param name  empty: alone.
+Json StateBand(const std::string& name, int figure, const Evaluation& evaluation);
+Json StateBands(Json people);
 
 /// Writes the page.
 std::string ReportHtml(const Evaluation& evaluation, const TakeSamples& samples,

@@ -5,72 +5,53 @@
 #include <cmath>
 #include <numbers>
 
+#include "config/joint_names.h"
 #include "core/degrees.h"
-#include "tools/report/svg_plot.h"
+#include "tools/report/evaluation_text.h"
+#include "tools/report/report.h"
 #include "tools/results/export_axes.h"
 
 namespace mocap {
 namespace {
 
-// Left and right keep their colours throughout the report.
-constexpr int kLeftColor = 0, kRightColor = 1, kPlainColor = 2, kOtherColor = 3;
+std::string SideName(int side) { return side == 0 ? "left" : "right"; }
 
-std::string Figure(const std::string& content, const std::string& caption) {
-  return fmt::format("<figure>{}<figcaption>{}</figcaption></figure>\n", content, caption);
-}
-
-Vector2 FrameRange(const Evaluation& evaluation) {
-  const std::vector<PoseRow>& poses = evaluation.result.poses;
-  if (poses.empty()) return {0, 1};
-  const auto first = static_cast<double>(poses.front().frame);
-  return {first, std::max(first + 1, static_cast<double>(poses.back().frame))};
-}
-
-/// Ranges of frames without tracking.
-std::vector<std::pair<double, double>> Untracked(const Evaluation& evaluation) {
-  std::vector<std::pair<double, double>> stretches;
-  for (const PoseRow& row : evaluation.result.poses) {
-    if (IsTracked(row)) continue;
-    const auto frame = static_cast<double>(row.frame);
-    if (stretches.empty() || stretches.back().second < frame - 0.5) {
-      stretches.emplace_back(frame - 0.5, frame + 0.5);
-    } else {
-      stretches.back().second = frame + 0.5;
-    }
-  }
-  return stretches;
-}
-
-PlotAxes OverFrames(const Evaluation& evaluation, const std::string& y_label, int width,
-                    int height) {
-  PlotAxes axes{"frame number", y_label, width, height};
-  axes.x_range = FrameRange(evaluation);
-  axes.shaded = Untracked(evaluation);
-  return axes;
-}
-
-/// A value of every tracked frame over the frame number; NaN elsewhere.
+/// A value of every row; null where nobody is tracked.
 template <typename Value>
-std::vector<Vector2> Curve(const Evaluation& evaluation, Value value) {
-  std::vector<Vector2> points;
-  for (const PoseRow& row : evaluation.result.poses) {
-    points.emplace_back(static_cast<double>(row.frame), IsTracked(row) ? value(row) : kPlotGap);
-  }
-  return points;
+Json Curve(const Evaluation& evaluation, Value value) {
+  Json curve = Json::array();
+  for (const PoseRow& row : evaluation.result.poses)
+    curve.push_back(IsTracked(row) ? Rounded(value(row)) : Json());
+  return curve;
 }
 
-/// A value of the truth for every tracked frame; NaN elsewhere.
+/// A value of every row whose error is known; null elsewhere.
 template <typename Value>
-std::vector<Vector2> TrueCurve(const Evaluation& evaluation, Value value) {
-  std::vector<Vector2> points;
-  if (!evaluation.accuracy) return points;
-  for (const FrameError& error : evaluation.accuracy->frames) {
-    const auto frame = static_cast<double>(evaluation.result.poses[error.pose].frame);
-    if (!points.empty() && frame > points.back().x() + 1.5)
-      points.emplace_back(frame - 1, kPlotGap);
-    points.emplace_back(frame, value(evaluation.truth->frames[error.truth].points_W));
-  }
-  return points;
+Json ScoredCurve(const Evaluation& evaluation, Value value) {
+  Json curve(evaluation.result.poses.size(), Json());
+  if (!evaluation.accuracy) return curve;
+  for (const FrameError& error : evaluation.accuracy->frames)
+    curve[static_cast<std::size_t>(error.pose)] = Rounded(value(error));
+  return curve;
+}
+
+template <typename Value>
+Json TrueCurve(const Evaluation& evaluation, Value value) {
+  return ScoredCurve(evaluation, [&](const FrameError& error) {
+    return value(evaluation.truth->frames[static_cast<std::size_t>(error.truth)].points_W);
+  });
+}
+
+Json OverFrames(const Evaluation& evaluation, const std::string& y_label, int height, Json series) {
+  return {{"x", FrameAxis(evaluation)},
+          {"y", {{"label", y_label}}},
+          {"height", height},
+          {"shade", true},
+          {"series", std::move(series)}};
+}
+
+bool IsScored(const Evaluation& evaluation) {
+  return evaluation.accuracy && !evaluation.accuracy->frames.empty();
 }
 
 constexpr int Index(Point point) {
@@ -102,183 +83,264 @@ double TrueLegAngle(const ScoredPoints& p, int row, int side) {
   return std::numbers::pi - ScoredAnglesOf(p)[2 + side];
 }
 
-std::string OfParts(const Evaluation& evaluation, std::vector<PlotSeries>& series) {
+/// Fig. 17: estimated and true sizes of the parts 0 to 9.
+Json PartSizesFigure(const Evaluation& evaluation) {
   const BodySizes& s = evaluation.result.body.sizes;
-  const double acquired[kBodyPartCount] = {s.torso, s.head,      s.upper_arm, s.upper_arm, s.thigh,
-                                           s.thigh, s.lower_arm, s.lower_arm, s.calf,      s.calf};
-  const char* names[kBodyPartCount] = {"torso", "head",      "upper_arm", "upper_arm", "thigh",
-                                       "thigh", "lower_arm", "lower_arm", "calf",      "calf"};
-  PlotSeries estimated{"acquired", {}, kLeftColor, PlotMark::kDots};
-  PlotSeries truth{"true", {}, kRightColor, PlotMark::kRings};
-  for (int part = 0; part < kBodyPartCount; ++part) {
-    estimated.points.emplace_back(part, acquired[part]);
-    if (!evaluation.truth) continue;
-    const auto found = evaluation.truth->lengths_mm.find(names[part]);
-    if (found != evaluation.truth->lengths_mm.end()) truth.points.emplace_back(part, found->second);
+  const double acquired_mm[] = {s.torso, s.head,      s.upper_arm, s.upper_arm, s.thigh,
+                                s.thigh, s.lower_arm, s.lower_arm, s.calf,      s.calf};
+  const char* names[] = {"torso", "head",      "upper_arm", "upper_arm", "thigh",
+                         "thigh", "lower_arm", "lower_arm", "calf",      "calf"};
+  const Json labels = {"0 torso",   "1 head",        "2 upper arm L", "3 upper arm R", "4 thigh L",
+                       "5 thigh R", "6 lower arm L", "7 lower arm R", "8 calf L",      "9 calf R"};
+  Json truth = Json::array();
+  const Json x{{"x", {0, 1, 2, 3, 4, 5, 6, 7, 8, 9}}};
+  for (const char* name : names) {
+    const bool is_known = evaluation.truth && evaluation.truth->lengths_mm.contains(name);
+    truth.push_back(is_known ? Rounded(evaluation.truth->lengths_mm.at(name)) : Json());
   }
-  series.push_back(std::move(estimated));
-  if (truth.points.empty()) return " The take does not contain the true sizes.";
-  series.push_back(std::move(truth));
-  return " Rings: true sizes; the head’s is not known.";
+  const bool has_truth = evaluation.truth && !evaluation.truth->lengths_mm.empty();
+  Json series = Json::array({Series("acquired", kLeftFigure, "dots", acquired_mm, x)});
+  if (has_truth) series.push_back(Series("true", kRightFigure, "rings", truth, x));
+  return Figure(
+      "Part sizes",
+      std::string("as in the paper’s Fig. 17. Left and right are acquired as one.") +
+          (has_truth ? " Rings: true sizes; the head’s is not known."
+                     : " The take does not contain the true sizes."),
+      Json::array(
+          {{{"x", {{"label", "body part number"}, {"range", {-0.5, 9.5}}, {"names", labels}}},
+            {"y", {{"label", "length [mm]"}}},
+            {"series", series}}}));
+}
+
+/// Fig. 22: hip and knee angles over the frame number.
+Json HipKneeFigure(const Evaluation& evaluation) {
+  const char* labels[] = {"hip about x [rad]", "hip about y [rad]", "knee about y [rad]"};
+  Json plots = Json::array();
+  for (int row = 0; row < 3; ++row) {
+    Json series = Json::array();
+    for (int side = 0; side < 2; ++side) {
+      const int angle = 10 + 2 * row + side;
+      series.push_back(
+          Series(fmt::format("θ{} {}", angle + 1, SideName(side)), kLeftFigure + side, "line",
+                 Curve(evaluation, [&](const PoseRow& p) { return p.paper.theta_rad[angle]; })));
+      if (!IsScored(evaluation)) continue;
+      series.push_back(Series("true", kLeftFigure + side, "dashed",
+                              TrueCurve(evaluation, [&](const ScoredPoints& p) {
+                                return TrueLegAngle(p, row, side);
+                              })));
+    }
+    plots.push_back(OverFrames(evaluation, labels[row], 140, series));
+  }
+  return Figure("Hip and knee angles",
+                "over the frame number, as in Fig. 22: θ11–θ16. Dashed: the same angles read off "
+                "the true points, in a torso frame of neck and hips. Shaded: not tracked.",
+                plots);
+}
+
+/// The eight angles that can be computed from points, tracked and true.
+Json ScoredAnglesFigure(const Evaluation& evaluation) {
+  Json plots = Json::array();
+  for (int angle = 0; angle < kScoredAngleCount; ++angle) {
+    const auto degrees = [angle](const ScoredPoints& p) {
+      return ScoredAnglesOf(p)[angle] * kDegreesPerRad;
+    };
+    const int figure = kLeftFigure + angle % 2;
+    plots.push_back(OverFrames(
+        evaluation, fmt::format("{} [°]", kScoredAngleNames[angle]), 130,
+        {Series("tracked", figure, "line",
+                Curve(evaluation,
+                      [&](const PoseRow& row) { return degrees(ScoredPointsOf(row.points_W)); })),
+         Series("true", figure, "dashed", TrueCurve(evaluation, degrees))}));
+  }
+  return Figure("Angles from points alone",
+                "so that no model’s axes matter: between upper and lower limb at elbow and knee, "
+                "and from the torso’s axis to upper arm and thigh.",
+                plots, 2);
+}
+
+void AddAccuracySections(const Evaluation& evaluation, const Json& figures, Json& sections) {
+  sections.push_back(Heading("Accuracy"));
+  sections.push_back(Figure(
+      "Distance from the truth", "frame by frame.",
+      Json::array({OverFrames(
+          evaluation, "error [mm]", 160,
+          {Series("mean of 14 points", kPlainFigure, "line", ErrorCurve(evaluation)),
+           Series("worst", kOtherFigure, "line", ScoredCurve(evaluation, [](const FrameError& e) {
+                    return e.point_mm.maxCoeff();
+                  }))})})));
+  Json lengths = Json::array();
+  for (const LengthPair& pair : evaluation.lengths) {
+    lengths.push_back({pair.name, Rounded(pair.acquired_mm), Rounded(pair.true_mm),
+                       Rounded(pair.acquired_mm - pair.true_mm)});
+  }
+  sections.push_back(Beside(
+      {Json::array({BarTable("mean error of point", "mm", 1, figures["points_mm"])}),
+       Json::array(
+           {BarTable("mean error of angle", "°", 2, figures["angles_deg"]),
+            Table({{"length"}, {"acquired mm", 1}, {"true mm", 1}, {"error mm", 1, false, true}},
+                  lengths)})}));
+  sections.push_back(ScoredAnglesFigure(evaluation));
+}
+
+void AddPrecisionSections(const Evaluation& evaluation, const Json& figures, Json& sections) {
+  sections.push_back(Heading("Precision"));
+  if (!evaluation.precision) {
+    sections.push_back(Paragraph("No run of 15 tracked frames."));
+    return;
+  }
+  const Precision& precision = *evaluation.precision;
+  Json angles;
+  for (int i = 0; i < kPaperAngleCount; ++i) {
+    angles[fmt::format("θ{} {}", i + 1, kPaperJointNames[i])] =
+        Rounded(precision.angle_rad[i] * kDegreesPerRad);
+  }
+  sections.push_back(Paragraph(fmt::format(
+      "Mean absolute difference between the output and a smooth curve through it (Savitzky–Golay, "
+      "order 3, 15 frames), over {} frames: what the paper gives in place of a comparison with the "
+      "truth. Mean of the angles {:.2f}°; {:.2f}° without θ7 and θ8, which are undefined while an "
+      "arm is straight.",
+      precision.frames, precision.mean_angle_rad * kDegreesPerRad,
+      precision.mean_angle_without_twist_rad * kDegreesPerRad)));
+  sections.push_back(
+      Beside({Json::array({BarTable("angle", "°", 2, angles)}),
+              Json::array({BarTable("point", "mm", 2, figures["precision"]["points_mm"])})}));
+}
+
+/// What the tracker says of its own error, and how true that is.
+void AddCertaintySections(const Evaluation& evaluation, Json& sections) {
+  const Certainty& certainty = *evaluation.certainty;
+  Json tiles =
+      Json::array({Tile("Fit", Rounded(certainty.median_fit_mm), 1, "mm",
+                        fmt::format("median; 95 % below {:.1f} mm", certainty.p95_fit_mm))});
+  const auto& check = certainty.check;
+  if (certainty.median_deviation_mm) {
+    tiles.push_back(Tile("Deviation", Rounded(*certainty.median_deviation_mm), 1, "mm",
+                         check && check->within_two_deviations
+                             ? fmt::format("median; {:.0f} % of the errors are within twice",
+                                           100 * *check->within_two_deviations)
+                             : "median"));
+  }
+  if (check) {
+    tiles.push_back(Tile("Error where the fit is better", Rounded(check->better_half_mm), 1, "mm",
+                         fmt::format("{:.1f} mm in the other half", check->worse_half_mm)));
+  }
+  sections.push_back(Heading("The tracker’s own view"));
+  sections.push_back(Tiles(tiles));
+  if (check && !check->probabilities.IsEmpty()) {
+    Json rows = Json::array();
+    for (const ProbabilityBin& bin : check->probabilities.bins) {
+      rows.push_back({fmt::format("{} to {}", bin.least, bin.most), bin.frames,
+                      Rounded(bin.sum / bin.frames), Rounded(100.0 * bin.right / bin.frames)});
+    }
+    sections.push_back(Table({{"probability"}, {"frames", 0}, {"mean", 3}, {"right %", 1}}, rows));
+    sections.push_back(Paragraph(fmt::format("Right: mean error below {:.0f} mm.", kRightPoseMm)));
+  }
+  const auto curve = [&](const char* label, auto value) {
+    return OverFrames(evaluation, label, 110,
+                      Json::array({Series("", kPlainFigure, "line", Curve(evaluation, value))}));
+  };
+  sections.push_back(
+      Figure("Fit",
+             "(residual_mm): mean distance between the body and what the cameras show. Below: "
+             "voxels of the person.",
+             {curve("fit [mm]", [](const PoseRow& row) { return row.residual_mm; }),
+              curve("voxels", [](const PoseRow& row) { return row.voxels; })}));
 }
 
 }  // namespace
 
-std::string StateTimeline(const Evaluation& evaluation) {
+Json FrameAxis(const Evaluation& evaluation) {
   const std::vector<PoseRow>& poses = evaluation.result.poses;
-  const double width = 1000.0 / std::max<std::size_t>(1, poses.size());
-  std::string svg = "<svg class=\"timeline\" viewBox=\"0 0 1000 26\" preserveAspectRatio=\"none\">";
-  for (std::size_t i = 0; i < poses.size();) {
-    std::size_t end = i;
-    while (end < poses.size() && poses[end].state == poses[i].state) ++end;
-    const std::string_view name = kCaptureStateNames[static_cast<std::size_t>(poses[i].state)];
-    svg += fmt::format(
-        "<rect class=\"{0}\" x=\"{1:.2f}\" width=\"{2:.2f}\" height=\"26\"><title>{0}: frames {3} "
-        "to {4}</title></rect>",
-        name, width * static_cast<double>(i), width * static_cast<double>(end - i), poses[i].frame,
-        poses[end - 1].frame);
-    i = end;
+  const std::int64_t first = poses.empty() ? 0 : poses.front().frame;
+  Json numbers = Json::array();
+  bool is_whole = true;
+  for (const PoseRow& row : poses) {
+    is_whole &= row.frame == first + static_cast<std::int64_t>(numbers.size());
+    numbers.push_back(row.frame);
   }
-  svg += "</svg><p class=\"key\">";
-  for (std::size_t i = 0; i < kCaptureStateNames.size(); ++i) {
-    svg += fmt::format("<span><i class=\"{0}\"></i>{0} {1}</span>", kCaptureStateNames[i],
-                       evaluation.frames_in_state[i]);
-  }
-  return svg + fmt::format("<span>of {} frames</span></p>\n", poses.size());
+  Json axis{{"label", "frame number"}};
+  if (is_whole)
+    axis["first"] = first;
+  else
+    axis["values"] = numbers;
+  return axis;
 }
 
-std::string PartSizesFigure(const Evaluation& evaluation) {
-  std::vector<PlotSeries> series;
-  const std::string note = OfParts(evaluation, series);
-  PlotAxes axes{"body part number", "length [mm]", 900, 280};
-  axes.x_range = Vector2(-0.5, 9.5);
-  axes.x_names = {"0 torso",   "1 head",        "2 upper arm L", "3 upper arm R", "4 thigh L",
-                  "5 thigh R", "6 lower arm L", "7 lower arm R", "8 calf L",      "9 calf R"};
-  return Figure(
-      PlotSvg(axes, series),
-      "<b>Part sizes</b> as in the paper’s Fig. 17. Left and right are acquired as one." + note);
+Json ErrorCurve(const Evaluation& evaluation) {
+  return ScoredCurve(evaluation, [](const FrameError& error) { return error.point_mm.mean(); });
 }
 
-std::string TorsoPathFigure(const Evaluation& evaluation,
-                            std::span<const std::pair<std::string, Vector3>> cameras) {
-  const auto from_above = [](const Vector3& p_W) { return Vector2(p_W.head<2>() / 1000); };
-  PlotSeries seats{"camera", {}, kOtherColor, PlotMark::kRings};
-  for (const auto& [name, p_WC] : cameras) {
-    seats.points.push_back(from_above(p_WC));
-    seats.names.push_back(name);
+Json TorsoPath(const Evaluation& evaluation, const std::string& label, int figure) {
+  const auto meters = [&](int axis) {
+    return Curve(evaluation,
+                 [axis](const PoseRow& row) { return row.paper.torso_mm[axis] / 1000; });
+  };
+  return Series(label, figure, "line", meters(1), {{"x", meters(0)}});
+}
+
+Json PathsFigure(const std::string& title, const TakeSamples& samples, Json paths) {
+  Json x = Json::array(), y = Json::array(), names = Json::array();
+  for (const CameraCalibration& camera : samples.cameras) {
+    const Vector3 p_WC = camera.X_CW.Inverse().p / 1000;
+    x.push_back(Rounded(p_WC.x()));
+    y.push_back(Rounded(p_WC.y()));
+    names.push_back(camera.name);
   }
-  PlotSeries truth{"true", {}, kRightColor, PlotMark::kDashed};
+  paths.insert(paths.begin(),
+               Series("camera", kOtherFigure, "rings", y, {{"x", x}, {"names", names}}));
+  return Figure(title, "from above, as in Fig. 21, with the cameras.",
+                Json::array({{{"x", {{"label", "world x [m]"}}},
+                              {"y", {{"label", "world y [m]"}}},
+                              {"equal", true},
+                              {"series", paths}}}));
+}
+
+Json TrackingSections(const Evaluation& evaluation, const TakeSamples& samples) {
+  const Json figures = Json::parse(EvaluationJson(evaluation, {}));
+  Json paths = Json::array({TorsoPath(evaluation, "tracked", kLeftFigure)});
   if (evaluation.truth) {
+    Json x = Json::array(), y = Json::array();
     for (const ScoredFrame& frame : evaluation.truth->frames) {
-      const Vector3 neck = frame.points_W.col(Index(Point::kNeck));
-      truth.points.push_back(from_above((neck + HipsMiddle(frame.points_W)) / 2));
+      const Vector3 p_W =
+          (frame.points_W.col(Index(Point::kNeck)) + HipsMiddle(frame.points_W)) / 2000;
+      x.push_back(Rounded(p_W.x()));
+      y.push_back(Rounded(p_W.y()));
     }
+    paths.push_back(Series("true", kRightFigure, "dashed", y, {{"x", x}}));
   }
-  PlotSeries path{"tracked", {}, kLeftColor};
-  for (const PoseRow& row : evaluation.result.poses) {
-    path.points.push_back(IsTracked(row) ? from_above(row.paper.torso_mm)
-                                         : Vector2(kPlotGap, kPlotGap));
-  }
-  std::vector<PlotSeries> series = {std::move(seats), std::move(path)};
-  if (!truth.points.empty()) series.push_back(std::move(truth));
-  PlotAxes axes{"world x [m]", "world y [m]", 560, 520};
-  axes.equal_scales = true;
-  return Figure(PlotSvg(axes, series),
-                "<b>Path of the torso’s centroid</b> from above, as in Fig. 21, with the cameras.");
+  Json sections = {Heading("The paper’s figures"), PartSizesFigure(evaluation),
+                   PathsFigure("Path of the torso’s centroid", samples, paths),
+                   HipKneeFigure(evaluation)};
+  if (IsScored(evaluation)) AddAccuracySections(evaluation, figures, sections);
+  AddPrecisionSections(evaluation, figures, sections);
+  if (evaluation.certainty) AddCertaintySections(evaluation, sections);
+  return sections;
 }
 
-std::string HipKneeFigure(const Evaluation& evaluation) {
-  const char* labels[] = {"hip about x [rad]", "hip about y [rad]", "knee about y [rad]"};
-  std::string plots;
-  for (int row = 0; row < 3; ++row) {
-    std::vector<PlotSeries> series;
-    for (int side = 0; side < 2; ++side) {
-      const int angle = 10 + 2 * row + side;
-      const int color = side == 0 ? kLeftColor : kRightColor;
-      series.push_back(
-          {fmt::format("θ{} {}", angle + 1, side == 0 ? "left" : "right"),
-           Curve(evaluation, [&](const PoseRow& pose) { return pose.paper.theta_rad[angle]; }),
-           color});
-      const auto truth =
-          TrueCurve(evaluation, [&](const ScoredPoints& p) { return TrueLegAngle(p, row, side); });
-      if (!truth.empty()) {
-        series.push_back({side == 0 ? "" : "true", truth, color, PlotMark::kDashed});
-      }
-    }
-    plots += PlotSvg(OverFrames(evaluation, labels[row], 900, 200), series);
-  }
-  return Figure(plots,
-                "<b>Hip and knee angles</b> over the frame number, as in Fig. 22: θ11–θ16. Dashed: "
-                "the same angles read off the true points, in a torso frame of neck and hips. "
-                "Shaded: not tracked.");
-}
-
-std::string ScoredAnglesFigure(const Evaluation& evaluation) {
-  if (!evaluation.accuracy) return {};
-  std::string plots = "<div class=\"two\">";
-  for (int angle = 0; angle < kScoredAngleCount; ++angle) {
-    const int color = angle % 2 == 0 ? kLeftColor : kRightColor;
-    const auto degrees = [angle](const ScoredPoints& p) {
-      return ScoredAnglesOf(p)[angle] * kDegreesPerRad;
-    };
-    const std::vector<PlotSeries> series = {
-        {"tracked",
-         Curve(evaluation,
-               [&](const PoseRow& row) { return degrees(ScoredPointsOf(row.points_W)); }),
-         color},
-        {"true", TrueCurve(evaluation, degrees), color, PlotMark::kDashed}};
-    plots += PlotSvg(
-        OverFrames(evaluation, fmt::format("{} [°]", kScoredAngleNames[angle]), 560, 190), series);
-  }
-  return Figure(
-      plots + "</div>",
-      "<b>Angles from points alone</b>, so that no model’s axes matter: between upper and "
-      "lower limb at elbow and knee, and from the torso’s axis to upper arm and thigh.");
-}
-
-std::string ErrorFigure(const Evaluation& evaluation) {
-  if (!evaluation.accuracy) return {};
-  PlotSeries mean{"mean of 14 points", {}, kPlainColor}, worst{"worst", {}, kOtherColor};
-  for (const FrameError& error : evaluation.accuracy->frames) {
-    const auto frame = static_cast<double>(evaluation.result.poses[error.pose].frame);
-    if (!mean.points.empty() && frame > mean.points.back().x() + 1.5) {
-      mean.points.emplace_back(frame - 1, kPlotGap);
-      worst.points.emplace_back(frame - 1, kPlotGap);
-    }
-    mean.points.emplace_back(frame, error.point_mm.mean());
-    worst.points.emplace_back(frame, error.point_mm.maxCoeff());
-  }
-  const PlotSeries series[] = {mean, worst};
-  return Figure(PlotSvg(OverFrames(evaluation, "error [mm]", 900, 220), series),
-                "<b>Distance from the truth</b>, frame by frame.");
-}
-
-std::string ResidualFigure(const Evaluation& evaluation) {
-  const PlotSeries residual[] = {
-      {"", Curve(evaluation, [](const PoseRow& row) { return row.residual_mm; }), kPlainColor}};
-  const PlotSeries voxels[] = {
-      {"", Curve(evaluation, [](const PoseRow& row) { return row.voxels; }), kPlainColor}};
-  return Figure(PlotSvg(OverFrames(evaluation, "fit [mm]", 900, 170), residual) +
-                    PlotSvg(OverFrames(evaluation, "voxels", 900, 170), voxels),
-                "<b>Fit</b> (residual_mm): mean distance between the body and what the cameras "
-                "show. Below: voxels of the person.");
-}
-
-std::string OverlapFigure(std::span<const CameraOverlap> overlaps, std::span<const double> frames) {
-  std::vector<PlotSeries> series;
+Json OverlapSections(std::span<const double> frames, std::span<const CameraOverlap> overlaps) {
+  Json series = Json::array(), rows = Json::array(), x = Json::array();
+  for (const double frame : frames) x.push_back(Rounded(frame));
   for (const CameraOverlap& overlap : overlaps) {
-    PlotSeries& camera = series.emplace_back();
-    camera.label = overlap.camera;
-    camera.color = static_cast<int>(series.size()) - 1;
-    for (std::size_t i = 0; i < frames.size(); ++i) {
-      camera.points.emplace_back(frames[i], 100 * overlap.iou[i]);
-    }
+    Json percents = Json::array();
+    for (const double share : overlap.iou) percents.push_back(Rounded(100 * share));
+    series.push_back(Series(overlap.camera, static_cast<int>(series.size()), "line", percents));
+    rows.push_back({overlap.camera, overlap.frames(), Rounded(100 * overlap.mean()),
+                    Rounded(100 * overlap.lowest()),
+                    overlap.unknown_share ? Rounded(100 * *overlap.unknown_share) : Json()});
   }
-  PlotAxes axes{"frame number", "IoU [%]", 900, 220};
-  return Figure(
-      PlotSvg(axes, series),
-      "<b>Overlap of the voxels, projected back, and the silhouettes</b> they were carved "
-      "from: intersection over union.");
+  return {Heading("Voxels and silhouettes"),
+          Figure("Overlap of the voxels, projected back, and the silhouettes",
+                 "they were carved from: intersection over union.",
+                 Json::array({{{"x", {{"label", "frame number"}, {"values", x}}},
+                               {"y", {{"label", "IoU [%]"}}},
+                               {"height", 160},
+                               {"series", series}}})),
+          Table({{"camera"}, {"frames", 0}, {"mean IoU %", 1}, {"lowest %", 1}, {"unknown %", 0}},
+                rows),
+          Paragraph(fmt::format("Unknown: pixels that show people, but cannot be told from the "
+                                "empty studio. Segmented and carved anew for this report with "
+                                "voxels of {:.0f} mm.",
+                                kReportVoxelMm))};
 }
 
 }  // namespace mocap

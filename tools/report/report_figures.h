@@ -1,41 +1,34 @@
-// The report's figures, each an HTML <figure>. Some redraw the paper's with our data.
+// Figures of one person for the report: what mocap evaluate measured, as sections of a page.
 #pragma once
 
 #include <span>
-#include <string>
-#include <utility>
-#include <vector>
 
-#include "core/geometry.h"
 #include "tools/report/evaluation.h"
 #include "tools/report/hull_overlap.h"
+#include "tools/report/report_page.h"
+#include "tools/take_samples.h"
 
 namespace mocap {
 
-/// State of each frame (searching, acquiring, tracking, lost), as a coloured band.
-std::string StateTimeline(const Evaluation& evaluation);
+/// The colours of left and right, and of what has no side.
+inline constexpr int kLeftFigure = 0, kRightFigure = 1, kPlainFigure = 2, kOtherFigure = 3;
 
-/// Fig. 17: estimated and true sizes of the parts 0–9.
-std::string PartSizesFigure(const Evaluation& evaluation);
+/// The axis of curves with a value for each row of a result.
+Json FrameAxis(const Evaluation& evaluation);
 
-/// Fig. 21: the path of the torso's centroid from above.
-/// @param cameras  names and positions p_WC.
-std::string TorsoPathFigure(const Evaluation& evaluation,
-                            std::span<const std::pair<std::string, Vector3>> cameras);
+/// The mean distance of the points from the truth at each row; null where it is unknown.
+Json ErrorCurve(const Evaluation& evaluation);
 
-/// Fig. 22: hip and knee angles over the frame number.
-std::string HipKneeFigure(const Evaluation& evaluation);
+/// The path of the torso's centroid from above [m].
+Json TorsoPath(const Evaluation& evaluation, const std::string& label, int figure);
 
-/// The eight angles that can be computed from points, tracked and true. Empty without truth.
-std::string ScoredAnglesFigure(const Evaluation& evaluation);
+/// A plan with the cameras and these paths, as in the paper's Fig. 21.
+Json PathsFigure(const std::string& title, const TakeSamples& samples, Json paths);
 
-/// Distance of the points from the truth, frame by frame. Empty without truth.
-std::string ErrorFigure(const Evaluation& evaluation);
+/// All sections that need a tracked person.
+Json TrackingSections(const Evaluation& evaluation, const TakeSamples& samples);
 
-/// The tracker's own residual and the number of voxels.
-std::string ResidualFigure(const Evaluation& evaluation);
-
-/// Overlap of projected voxels and silhouettes for each camera over the sampled frames.
-std::string OverlapFigure(std::span<const CameraOverlap> overlaps, std::span<const double> frames);
+/// Overlap of projected voxels and silhouettes. @param frames  numbers of the sampled moments.
+Json OverlapSections(std::span<const double> frames, std::span<const CameraOverlap> overlaps);
 
 }  // namespace mocap

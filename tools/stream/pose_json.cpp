@@ -5,17 +5,15 @@
 #include <iterator>
 
 #include "core/motion_capture.h"
+#include "tools/page/json_text.h"
 #include "tools/results/message_body.h"
-#include "tools/view/json_text.h"
 
 namespace mocap {
 namespace {
 
-using Json = nlohmann::ordered_json;
-
-double Rounded(double value, double steps) { return std::round(value * steps) / steps; }
-double Mm(double value) { return Rounded(value, 1e3); }
-double Rad(double value) { return Rounded(value, 1e6); }
+double RoundedTo(double value, double steps) { return std::round(value * steps) / steps; }
+double Mm(double value) { return RoundedTo(value, 1e3); }
+double Rad(double value) { return RoundedTo(value, 1e6); }
 
 Json PointJson(const double (&point_mm)[3]) {
   Json json = Json::array();
@@ -57,7 +55,7 @@ std::string PoseJson(const StreamedPose& pose) {
     json["name"] = pose.name;
   }
   if (pose.is_tracked) AddPose(pose.message, *pose.body, json);
-  if (!std::isnan(pose.probability)) json["probability"] = Rounded(pose.probability, 1e4);
+  if (!std::isnan(pose.probability)) json["probability"] = RoundedTo(pose.probability, 1e4);
   return JsonText(json);
 }
 

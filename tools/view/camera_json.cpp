@@ -1,11 +1,9 @@
 #include "tools/view/camera_json.h"
 
-#include "tools/view/json_text.h"
+#include "tools/page/json_text.h"
 
 namespace mocap {
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 constexpr double kDepth_mm = 1000;
 

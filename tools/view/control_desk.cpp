@@ -7,8 +7,8 @@
 
 #include "daemon/control/control_request.h"
 #include "daemon/control/control_socket.h"
+#include "tools/page/json_text.h"
 #include "tools/view/access.h"
-#include "tools/view/json_text.h"
 
 namespace mocap {
 namespace {

@@ -5,9 +5,9 @@
 #include <nlohmann/json.hpp>
 
 #include "config/body_size_fields.h"
+#include "tools/page/json_text.h"
 #include "tools/report/body_outline.h"
 #include "tools/results/message_body.h"
-#include "tools/view/json_text.h"
 
 namespace mocap {
 namespace {

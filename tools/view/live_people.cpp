@@ -3,8 +3,8 @@
 #include <algorithm>
 
 #include "core/people/people_capture.h"
+#include "tools/page/json_text.h"
 #include "tools/results/pose_log.h"
-#include "tools/view/json_text.h"
 
 namespace mocap {
 namespace {

@@ -4,12 +4,10 @@
 #include <string_view>
 
 #include "core/motion_capture.h"
-#include "tools/view/json_text.h"
+#include "tools/page/json_text.h"
 
 namespace mocap {
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 constexpr std::array<std::string_view, 4> kCameraStates = {"starting", "streaming", "lost",
                                                            "ended"};

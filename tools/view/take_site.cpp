@@ -13,19 +13,17 @@
 #include "daemon/messages/reduced_picture.h"
 #include "drivers/quoted.h"
 #include "drivers/take/input_file.h"
+#include "tools/page/json_text.h"
+#include "tools/page/picture_lines.h"
 #include "tools/report/body_outline.h"
 #include "tools/results/export_axes.h"
 #include "tools/results/message_body.h"
 #include "tools/view/camera_json.h"
 #include "tools/view/drawn_body.h"
-#include "tools/view/json_text.h"
-#include "tools/view/picture_lines.h"
 #include "tools/view/wire.h"
 
 namespace mocap {
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 constexpr std::size_t kMostPosesAtOnce = 2000;
 constexpr int kWidest_px = 800;

@@ -40,10 +40,10 @@ TEST(AccuracySummary, CountsWhatTheMeanHides) {
 
 TEST(AccuracyReport, ShowsAPlotOnlyOfSweepsThatWereMade) {
   AccuracyBenchmark benchmark{.seconds = 10, .grid = {Row(10, 1, 2, 0)}, .sweeps = {}};
-  EXPECT_THAT(AccuracyMarkdown(benchmark), Not(HasSubstr("accuracy.svg")));
+  EXPECT_THAT(AccuracyMarkdown(benchmark), Not(HasSubstr("accuracy.html")));
   benchmark.sweeps = {{"cameras", {{"4", Summarize(benchmark.grid)}}}};
-  EXPECT_THAT(AccuracyMarkdown(benchmark), HasSubstr("accuracy.svg"));
-  EXPECT_THAT(AccuracySweepsSvg(benchmark.sweeps), HasSubstr("cameras"));
+  EXPECT_THAT(AccuracyMarkdown(benchmark), HasSubstr("accuracy.html"));
+  EXPECT_THAT(AccuracySweepsHtml(benchmark.sweeps), HasSubstr("\"label\":\"cameras\""));
 }
 
 TEST(AccuracyReport, StudiosHaveATableOfTheirOwn) {

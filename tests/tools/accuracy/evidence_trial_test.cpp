@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "tests/support/report_data.h"
 #include "tools/accuracy/evidence_report.h"
 
 namespace mocap {
@@ -114,11 +115,11 @@ TEST(EvidenceReport, WhoIsNoLongerTrackedIsTheWorstRise) {
   EXPECT_THAT(EvidenceLine(rows.back()), HasSubstr("–"));
 }
 
-int CrossesIn(const std::string& svg) {
-  int count = 0;
-  for (std::size_t at = svg.find("l8 8m-8 0l8 -8"); at != std::string::npos;
-       at = svg.find("l8 8m-8 0l8 -8", at + 1))
-    ++count;
+/// Over all plots.
+std::size_t CrossesIn(const std::string& html) {
+  std::size_t count = 0;
+  const auto figures = testing::SectionsOf(testing::ReportData(html), "figure");
+  for (const auto& plot : figures[0]["plots"]) count += plot["series"].back()["y"].size();
   return count;
 }
 
@@ -127,9 +128,8 @@ TEST(EvidenceReport, MarksTheErrorsThatRise) {
                                          WeakRow({10, 18, 16}, 0)};
   const std::vector<EvidenceRow> ill = {WeakRow({10, 18, 4}, 30), WeakRow({10, 18, 8}, 20),
                                         WeakRow({10, 18, 16}, 21.1)};
-  // Each plot has one in its legend.
-  EXPECT_EQ(CrossesIn(EvidenceSvg(well)), 3);
-  EXPECT_EQ(CrossesIn(EvidenceSvg(ill)), 4);
+  EXPECT_EQ(CrossesIn(EvidenceHtml(well)), 0u);
+  EXPECT_EQ(CrossesIn(EvidenceHtml(ill)), 1u);
 }
 
 TEST(EvidenceReport, HasALineOfAllCamerasAndMeansOverTakes) {
@@ -141,9 +141,9 @@ TEST(EvidenceReport, HasALineOfAllCamerasAndMeansOverTakes) {
       EvidenceTable(rows),
       HasSubstr("| 15 | 28 | 35.0 | 100 | 50 | 30 | 20.0 | 100 | 70 | 0 | 10.0 | 100 | 120 | 0 |"));
   EXPECT_THAT(EvidenceTable(rows), HasSubstr("-10.0 mm"));
-  EXPECT_THAT(EvidenceMarkdown(rows, 2), HasSubstr("evidence.svg"));
-  EXPECT_THAT(EvidenceSvg(rows), HasSubstr("cameras, crf 28"));
-  EXPECT_THAT(EvidenceSvg(rows), HasSubstr("contrast 40"));
+  EXPECT_THAT(EvidenceMarkdown(rows, 2), HasSubstr("evidence.html"));
+  EXPECT_THAT(EvidenceHtml(rows), HasSubstr("cameras, crf 28"));
+  EXPECT_THAT(EvidenceHtml(rows), HasSubstr("contrast 40"));
   EXPECT_EQ(EvidenceMarkdown({}, 2), "");
   EXPECT_EQ(EvidenceTable({}), "");
 }

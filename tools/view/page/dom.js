@@ -5,15 +5,23 @@ export function byId(id) {
   return document.getElementById(id);
 }
 
-/** Makes an element; `text` is its text, other entries are attributes. */
-export function make(tag, {text, ...attributes} = {}, ...children) {
-  const element = document.createElement(tag);
+function fill(element, {text, ...attributes}, children) {
   for (const [name, value] of Object.entries(attributes)) {
     if (value !== undefined && value !== false) element.setAttribute(name, value);
   }
   if (text !== undefined) element.textContent = text;
   element.append(...children);
   return element;
+}
+
+/** Makes an element; `text` is its text, other entries are attributes. */
+export function make(tag, entries = {}, ...children) {
+  return fill(document.createElement(tag), entries, children);
+}
+
+/** Makes an element of a drawing, likewise. */
+export function makeSvg(tag, entries = {}, ...children) {
+  return fill(document.createElementNS('http://www.w3.org/2000/svg', tag), entries, children);
 }
 
 /** Sets a text only when it changes, to keep selections and not disturb screen readers. */

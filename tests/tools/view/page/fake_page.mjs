@@ -40,6 +40,11 @@ export class FakeElement extends EventTarget {
     if (isOn) this.attributes.checked = '';
   }
 
+  appendChild(child) {
+    this.append(child);
+    return child;
+  }
+
   append(...children) {
     for (const child of children.filter((one) => one instanceof FakeElement)) child.parent = this;
     this.children.push(...children);
@@ -104,11 +109,15 @@ class FakeDocument extends EventTarget {
   createElement(tag) {
     return new FakeElement(tag);
   }
+
+  createElementNS(_, tag) {
+    return new FakeElement(tag);
+  }
 }
 
 Object.assign(globalThis, {
   document: new FakeDocument(),
-  window: {matchMedia: () => ({matches: false}), devicePixelRatio: 1},
+  window: {matchMedia: () => ({matches: false, addEventListener() {}}), devicePixelRatio: 1},
   Element: FakeElement,
   getComputedStyle: () => ({getPropertyValue: (name) => `colour of ${name}`}),
   ResizeObserver: class {observe() {}},

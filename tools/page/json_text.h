@@ -6,9 +6,11 @@
 
 namespace mocap {
 
+using Json = nlohmann::ordered_json;
+
 /// Converts JSON to text. Bytes in messages that are not UTF-8 become a question mark.
-inline std::string JsonText(const nlohmann::ordered_json& json) {
-  return json.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
+inline std::string JsonText(const Json& json) {
+  return json.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 
 }  // namespace mocap

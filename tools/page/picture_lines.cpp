@@ -1,4 +1,4 @@
-#include "tools/view/picture_lines.h"
+#include "tools/page/picture_lines.h"
 
 #include <opencv2/imgproc.hpp>
 
