@@ -10,7 +10,7 @@
 
 #include "config/load_config.h"
 #include "core/errors.h"
-#include "daemon/base/json_object.h"
+#include "daemon/base/json.h"
 #include "drivers/nearest_name.h"
 #include "drivers/printable_text.h"
 #include "drivers/quoted.h"
@@ -292,28 +292,29 @@ std::string FitText(const StudioFit& fit, const std::vector<Finding>& findings) 
 
 std::string FitJson(const StudioFit& fit, const std::vector<Finding>& findings) {
   const Vector3 middle_W = MiddleOfRoom(fit.bundle.cameras);
-  JsonObject json, cameras;
-  json.Add("rms_px", fit.rms_px, 4);
+  Json json = Json::object(), cameras = Json::object();
+  json["rms_px"] = Rounded(fit.rms_px, 4);
   for (std::size_t c = 0; c < fit.cameras.size(); ++c) {
     const CameraFit& camera = fit.cameras[c];
-    JsonObject one;
-    one.Add("views", camera.views);
-    if (camera.lens_rms_px > 0) one.Add("lens_rms_px", camera.lens_rms_px, 4);
+    Json one = Json::object();
+    one["views"] = camera.views;
+    if (camera.lens_rms_px > 0) one["lens_rms_px"] = Rounded(camera.lens_rms_px, 4);
     if (camera.rms_px > 0) {
-      one.Add("rms_px", camera.rms_px, 4);
-      one.Add("rms_mm", camera.rms_px * MillimetresPerPixel(fit.bundle.cameras[c], middle_W), 3);
+      one["rms_px"] = Rounded(camera.rms_px, 4);
+      one["rms_mm"] =
+          Rounded(camera.rms_px * MillimetresPerPixel(fit.bundle.cameras[c], middle_W), 3);
     }
-    one.Add("coverage", camera.coverage.share, 3);
-    cameras.Add(camera.name, one);
+    one["coverage"] = Rounded(camera.coverage.share, 3);
+    cameras[camera.name] = one;
   }
-  json.Add("cameras", cameras);
-  JsonObject list;
+  json["cameras"] = cameras;
+  Json list = Json::object();
   for (std::size_t i = 0; i < findings.size(); ++i)
-    list.Add(std::to_string(i + 1),
-             std::string(NameOf(findings[i].severity)) + ": " + findings[i].text);
-  json.Add("findings", list);
-  json.Add("verdict", Conclusion(findings));
-  return json.Text() + '\n';
+    list[std::to_string(i + 1)] =
+        std::string(NameOf(findings[i].severity)) + ": " + findings[i].text;
+  json["findings"] = list;
+  json["verdict"] = Conclusion(findings);
+  return JsonText(json) + '\n';
 }
 
 }  // namespace mocap

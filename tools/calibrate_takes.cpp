@@ -13,7 +13,7 @@
 #include "config/take_header.h"
 #include "core/calibration/diagnosis_text.h"
 #include "core/errors.h"
-#include "daemon/base/json_object.h"
+#include "daemon/base/json.h"
 #include "drivers/clock.h"
 #include "drivers/take/calibration_file.h"
 #include "drivers/take/take_layout.h"
@@ -127,26 +127,26 @@ std::string ShiftText(const std::vector<CameraShift>& shifts) {
 }
 
 std::string ShiftJson(const RefinedStudio& refined) {
-  JsonObject json;
+  Json json = Json::object();
   const auto list = [](const std::vector<CameraShift>& shifts) {
-    JsonObject cameras;
+    Json cameras = Json::object();
     for (const CameraShift& s : shifts) {
-      JsonObject one;
-      one.Add("right_px", s.shift_px.x(), 2);
-      one.Add("down_px", s.shift_px.y(), 2);
-      one.Add("growth", s.growth, 4);
-      one.Add("overlap", s.overlap, 3);
-      one.Add("moments", s.moments);
-      cameras.Add(s.camera, one);
+      Json one = Json::object();
+      one["right_px"] = Rounded(s.shift_px.x(), 2);
+      one["down_px"] = Rounded(s.shift_px.y(), 2);
+      one["growth"] = Rounded(s.growth, 4);
+      one["overlap"] = Rounded(s.overlap, 3);
+      one["moments"] = s.moments;
+      cameras[s.camera] = one;
     }
     return cameras;
   };
-  json.Add("before", list(refined.before));
-  json.Add("after", list(refined.after));
+  json["before"] = list(refined.before);
+  json["after"] = list(refined.after);
   std::string moved;
   for (const std::string& name : refined.moved) moved += (moved.empty() ? "" : ",") + name;
-  json.Add("moved", moved);
-  return json.Text() + '\n';
+  json["moved"] = moved;
+  return JsonText(json) + '\n';
 }
 
 std::string ConclusionText(const RefinedStudio& refined) {

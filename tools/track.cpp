@@ -21,7 +21,7 @@
 #include "core/calibration/studio_diagnosis.h"
 #include "core/errors.h"
 #include "daemon/base/choice_option.h"
-#include "daemon/base/json_object.h"
+#include "daemon/base/json.h"
 #include "daemon/base/number_option.h"
 #include "daemon/pipeline/masked_camera.h"
 #include "daemon/pipeline/pipeline.h"
@@ -55,20 +55,20 @@ struct TrackOptions {
 };
 
 std::string JsonOf(const ResultSink& sink, const StageHistograms& stages, double seconds) {
-  JsonObject json;
-  json.Add("frames", static_cast<int>(sink.frames()));
-  json.Add("tracked_frames", static_cast<int>(sink.tracked_frames()));
-  json.Add("acquisition_frames", sink.acquisition_frames());
-  if (!sink.people().empty()) json.Add("people", static_cast<int>(sink.people().size()));
+  Json json = Json::object();
+  json["frames"] = sink.frames();
+  json["tracked_frames"] = sink.tracked_frames();
+  json["acquisition_frames"] = sink.acquisition_frames();
+  if (!sink.people().empty()) json["people"] = sink.people().size();
   for (const Stage stage :
        {Stage::kSegment, Stage::kCarve, Stage::kLabel, Stage::kFilter, Stage::kTotal}) {
-    JsonObject timing;
-    timing.Add("p50_ms", stages[stage].PercentileMs(0.5), 3);
-    timing.Add("p99_ms", stages[stage].PercentileMs(0.99), 3);
-    json.Add(kStageNames[static_cast<std::size_t>(stage)], timing);
+    Json timing = Json::object();
+    timing["p50_ms"] = Rounded(stages[stage].PercentileMs(0.5), 3);
+    timing["p99_ms"] = Rounded(stages[stage].PercentileMs(0.99), 3);
+    json[std::string(kStageNames[static_cast<std::size_t>(stage)])] = timing;
   }
-  json.Add("frames_per_second", static_cast<double>(sink.frames()) / seconds, 2);
-  return json.Text();
+  json["frames_per_second"] = Rounded(static_cast<double>(sink.frames()) / seconds, 2);
+  return JsonText(json);
 }
 
 // @pre  the name is valid.

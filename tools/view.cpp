@@ -10,12 +10,12 @@
 
 #include "config/load_config.h"
 #include "core/errors.h"
+#include "daemon/base/json.h"
 #include "daemon/base/number_option.h"
 #include "daemon/messages/open_lcm.h"
 #include "drivers/printable_text.h"
 #include "drivers/take/input_file.h"
 #include "tools/chosen_config.h"
-#include "tools/page/json_text.h"
 #include "tools/page/page_files.h"
 #include "tools/remarks.h"
 #include "tools/view/access.h"

@@ -11,10 +11,7 @@
 #include <lcm/lcm-cpp.hpp>
 #include <memory>
 #include <mocap/body_t.hpp>
-#include <mocap/people_t.hpp>
 #include <mocap/pose_t.hpp>
-#include <mocap/service_t.hpp>
-#include <mocap/status_t.hpp>
 #include <optional>
 #include <span>
 #include <string>
@@ -23,12 +20,13 @@
 #include <vector>
 
 #include "config/config.h"
-#include "core/people/people_capture.h"
 #include "daemon/base/number_option.h"
 #include "daemon/messages/channel_name.h"
 #include "daemon/messages/decode_message.h"
 #include "daemon/messages/silence.h"
-#include "daemon/status/followed_person.h"
+#include "daemon/messages/status_messages.h"
+#include "daemon/status/diagnostics.h"
+#include "daemon/status/status_fields.h"
 #include "drivers/clock.h"
 #include "drivers/printable_text.h"
 #include "tools/stop_on_signals.h"
@@ -42,7 +40,6 @@ constexpr std::int64_t kPageNs = 250'000'000;
 constexpr std::int64_t kLineNs = 1'000'000'000;
 /// Time window for rate and latency.
 constexpr std::int64_t kWindowNs = 2'000'000'000;
-constexpr const char* kCameraStates[] = {"starting", "streaming", "LOST", "ended"};
 
 std::span<const std::uint8_t> BytesOf(const lcm::ReceiveBuffer& buffer) {
   return {static_cast<const std::uint8_t*>(buffer.data), buffer.data_size};
@@ -56,7 +53,7 @@ class Hearing {
     lcm.subscribe(prefix + kPoseChannel, &Hearing::OnPose, this);
     lcm.subscribe(prefix + kBodyChannel, &Hearing::OnBody, this);
     lcm.subscribe(prefix + kPeopleChannel, &Hearing::OnPeople, this);
-    lcm.subscribe(prefix + "MOCAP_STATUS", &Hearing::OnStatus, this);
+    lcm.subscribe(prefix + kStatusChannel, &Hearing::OnStatus, this);
     lcm.subscribe(prefix + kServiceChannel, &Hearing::OnService, this);
   }
 
@@ -82,9 +79,9 @@ class Hearing {
   bool HearsSeveral() const { return steps_back_ > 3 + poses_ / 20; }
   const std::optional<pose_t>& pose() const { return pose_; }
   const std::optional<body_t>& body() const { return body_; }
-  const std::optional<people_t>& people() const { return people_; }
-  const std::optional<status_t>& status() const { return status_; }
-  const std::optional<service_t>& service() const { return service_; }
+  /// As far as messages tell it.
+  const ServiceReport& report() const { return report_; }
+  bool HasStatus() const { return has_status_; }
 
  private:
   struct Arrival {
@@ -93,9 +90,8 @@ class Hearing {
   };
 
   void OnPose(const lcm::ReceiveBuffer* buffer, const std::string&) {
-    std::optional<pose_t> pose = DecodeMessage<pose_t>(BytesOf(*buffer));
+    std::optional<pose_t> pose = Heard<pose_t>(buffer);
     if (!pose) return;
-    heard_ns_ = SteadyNs();
     Count(pose->frame);
     arrivals_.push_back(
         {heard_ns_,
@@ -113,22 +109,26 @@ class Hearing {
   }
 
   void OnBody(const lcm::ReceiveBuffer* buffer, const std::string&) {
-    Take(DecodeMessage<body_t>(BytesOf(*buffer)), body_);
+    std::optional<body_t> body = Heard<body_t>(buffer);
+    if (body) body_ = std::move(body);
   }
   void OnPeople(const lcm::ReceiveBuffer* buffer, const std::string&) {
-    Take(DecodeMessage<people_t>(BytesOf(*buffer)), people_);
+    if (const auto people = Heard<people_t>(buffer)) TakePeople(*people, report_);
   }
   void OnStatus(const lcm::ReceiveBuffer* buffer, const std::string&) {
-    Take(DecodeMessage<status_t>(BytesOf(*buffer)), status_);
+    const auto status = Heard<status_t>(buffer);
+    if (!status) return;
+    TakeStatus(*status, report_);
+    has_status_ = true;
   }
   void OnService(const lcm::ReceiveBuffer* buffer, const std::string&) {
-    Take(DecodeMessage<service_t>(BytesOf(*buffer)), service_);
+    if (const auto service = Heard<service_t>(buffer)) TakeService(*service, report_);
   }
   template <typename Message>
-  void Take(std::optional<Message> heard, std::optional<Message>& kept) {
-    if (!heard) return;
-    heard_ns_ = SteadyNs();
-    kept = std::move(heard);
+  std::optional<Message> Heard(const lcm::ReceiveBuffer* buffer) {
+    std::optional<Message> message = DecodeMessage<Message>(BytesOf(*buffer));
+    if (message) heard_ns_ = SteadyNs();
+    return message;
   }
 
   std::int64_t heard_ns_ = SteadyNs();
@@ -136,60 +136,32 @@ class Hearing {
   std::int64_t missed_ = 0, steps_back_ = 0, poses_ = 0;
   std::optional<pose_t> pose_;
   std::optional<body_t> body_;
-  std::optional<people_t> people_;
-  std::optional<status_t> status_;
-  std::optional<service_t> service_;
+  ServiceReport report_;
+  bool has_status_ = false;
 };
 
 /// Bounds a number from a message, which anyone may have sent.
 double Sane(double value) { return std::isfinite(value) ? std::clamp(value, -1e6, 1e6) : 0; }
 
-/// Makes text from a message printable and bounds its length.
-std::string Foreign(const std::string& text) {
-  constexpr std::size_t kMostCharacters = 200;
-  return Shortened(text, kMostCharacters);
-}
-
-std::string StateName(int state) {
-  const auto number = static_cast<std::size_t>(state);
-  return number < kCaptureStateNames.size() ? std::string(kCaptureStateNames[number]) : "?";
+std::string_view StateName(const pose_t& pose) {
+  return NameOf(static_cast<CaptureState>(pose.state));
 }
 
 /// "person 1 tracking, person 3 (anna) lost".
-std::string PeopleText(const people_t& people) {
-  std::string text;
-  for (std::size_t i = 0; i < std::min<std::size_t>(kMostPeople, people.people.size()); ++i) {
-    const person_t& person = people.people[i];
-    text += fmt::format("{}{} {}", i == 0 ? "" : ", ", LabelOf(person.id, Foreign(person.name)),
-                        StateName(person.state));
-  }
-  return text;
-}
-
-/// Appends one line per person.
-void AppendPeople(const people_t& people, std::string& page) {
-  page += fmt::format("\n{:<24}{:<12}{:>22}{:>9}\n", "person", "state", "torso x y z m", "fit mm");
-  for (std::size_t i = 0; i < std::min<std::size_t>(kMostPeople, people.people.size()); ++i) {
-    const person_t& person = people.people[i];
-    const bool is_tracked = person.state == pose_t::TRACKING;
-    page += fmt::format(
-        "{:<24}{:<12}{:>22}{:>9}\n",
-        std::to_string(person.id) + (person.name.empty() ? "" : "  " + Foreign(person.name)),
-        StateName(person.state),
-        fmt::format("{:.2f} {:.2f} {:.2f}", Sane(person.torso_mm[0]) / 1000,
-                    Sane(person.torso_mm[1]) / 1000, Sane(person.torso_mm[2]) / 1000),
-        is_tracked ? fmt::format("{:.0f}", Sane(person.residual_mm)) : "-");
-  }
+std::string PeopleText(const std::vector<FollowedPerson>& people) {
+  std::vector<std::string> texts;
+  for (const FollowedPerson& person : people)
+    texts.push_back(fmt::format("{} {}", LabelOf(person.id, person.name), NameOf(person.state)));
+  return fmt::format("{}", fmt::join(texts, ", "));
 }
 
 std::string PoseLine(const Hearing& hearing) {
   const pose_t& pose = *hearing.pose();
-  std::string line = fmt::format("{:<9}  {:5.1f} poses/s  latency {:4.0f} ms",
-                                 StateName(pose.state), hearing.Rate(), Sane(hearing.LatencyMs()));
+  std::string line = fmt::format("{:<9}  {:5.1f} poses/s  latency {:4.0f} ms", StateName(pose),
+                                 hearing.Rate(), Sane(hearing.LatencyMs()));
   if (pose.state == pose_t::TRACKING)
     line += fmt::format("  fit {:3.0f} mm", Sane(pose.residual_mm));
-  if (hearing.people() && hearing.people()->num_people > 1)
-    line += "  " + PeopleText(*hearing.people());
+  if (hearing.report().people.size() > 1) line += "  " + PeopleText(hearing.report().people);
   line += "  " + Counted(pose.voxels, "voxel");
   if (hearing.HearsSeveral())
     return line + "  poses of several daemons are mixed: give each its own lcm.prefix";
@@ -200,14 +172,12 @@ std::string PoseLine(const Hearing& hearing) {
 /// For a daemon that sends no poses: a node, or a studio without frame sets.
 std::string StatusLine(const Hearing& hearing) {
   std::string line = "no poses";
-  if (hearing.status()) {
-    const auto& cameras = hearing.status()->cameras;
-    const auto streaming =
-        std::ranges::count(cameras, camera_status_t::STREAMING, &camera_status_t::state);
-    line += fmt::format("  {} of {} cameras streaming", streaming, cameras.size());
+  const ServiceReport& report = hearing.report();
+  if (hearing.HasStatus()) {
+    line += fmt::format("  {} of {} cameras streaming", Streaming(report.now.status),
+                        report.now.status.cameras.size());
   }
-  if (hearing.service() && !hearing.service()->complaint.empty())
-    line += "  ! " + Foreign(hearing.service()->complaint.front());
+  if (report.told && !report.told->empty()) line += "  ! " + report.told->front();
   return line;
 }
 
@@ -215,55 +185,26 @@ std::string Line(const Hearing& hearing) {
   return hearing.pose() ? PoseLine(hearing) : StatusLine(hearing);
 }
 
-/// Formats a camera's trust, offset and light.
-std::string HealthCells(const std::optional<service_t>& service, std::size_t camera) {
-  const bool is_told = service && camera < service->camera_trust.size();
-  if (!is_told) return fmt::format("{:>8}{:>8}{:>8}", "-", "-", "-");
-  const double trust = Sane(service->camera_trust[camera]);
-  const std::string light = fmt::format("{:.0f} %", 100 * Sane(service->camera_light[camera]));
-  if (trust < 0) return fmt::format("{:>8}{:>8}{:>8}", "-", "-", light);
-  return fmt::format("{:>8}{:>8.1f}{:>8}", fmt::format("{:.0f} %", 100 * trust),
-                     Sane(service->camera_off_px[camera]), light);
+std::string RunningText(const ServiceReport& report) {
+  const RecordingStatus& recording = report.recording;
+  return fmt::format("recording {}, {}, {} of all cameras, {} dropped, {:.1f} GB free\n",
+                     recording.folder.string(), Duration(recording.duration_ns),
+                     Counted(recording.frames, "frame"), recording.dropped,
+                     static_cast<double>(report.bytes_free) / 1e9);
 }
 
-void AppendCameras(const Hearing& hearing, std::string& page) {
-  const status_t& status = *hearing.status();
-  page += fmt::format("\n{:<16}{:<10}{:>9}{:>10}{:>8}{:>8}{:>8}{:>8}{:>8}  {}\n", "camera", "state",
-                      "fps", "dropped", "late", "damaged", "trust", "off px", "light",
-                      "in the last set");
-  for (std::size_t i = 0; i < status.cameras.size(); ++i) {
-    const camera_status_t& camera = status.cameras[i];
-    const auto state = static_cast<std::size_t>(camera.state);
-    const bool is_used =
-        hearing.pose() && i < hearing.pose()->camera_used.size() && hearing.pose()->camera_used[i];
-    page += fmt::format("{:<16}{:<10}{:>9.1f}{:>10}{:>8}{:>8}{}  {}\n", Foreign(camera.name),
-                        state < std::size(kCameraStates) ? kCameraStates[state] : "?",
-                        Sane(camera.frames_per_second), camera.dropped, camera.late, camera.torn,
-                        HealthCells(hearing.service(), i), is_used ? "yes" : "no");
+std::string CamerasText(const Hearing& hearing) {
+  std::vector<ReportedCamera> cameras = CamerasOf(hearing.report());
+  for (std::size_t i = 0; hearing.pose() && i < cameras.size(); ++i) {
+    const auto& used = hearing.pose()->camera_used;
+    cameras[i].is_used = i < used.size() && used[i];
   }
-  page += '\n';
-  for (const stage_timing_t& stage : status.stages) {
-    page += fmt::format("{:<8} {:6.1f} ms  99 % below {:6.1f}\n", Foreign(stage.name),
-                        Sane(stage.p50_ms), Sane(stage.p99_ms));
-  }
-  page += fmt::format("sets     {} complete, {} incomplete, {} dropped; spread {:.1f} ms\n",
-                      status.sets_complete, status.sets_partial, status.sets_dropped,
-                      Sane(status.spread_p50_ms));
-}
-
-void AppendService(const service_t& service, std::string& page) {
-  if (service.complaint.empty()) page += "all is good\n";
-  for (const std::string& complaint : service.complaint) page += "! " + Foreign(complaint) + '\n';
-  if (service.recording_state != service_t::RUNNING) return;
-  page += fmt::format("recording {}, {:.0f} s, {} of all cameras, {} dropped, {:.1f} GB free\n",
-                      Foreign(service.recording_folder), Sane(service.recording_seconds),
-                      Counted(service.recording_frames, "frame"), service.recording_dropped,
-                      static_cast<double>(service.bytes_free) / 1e9);
+  return TableOf(CameraFields(), cameras, Shown::kInWatch);
 }
 
 std::string Page(const Hearing& hearing, const std::string& url) {
   std::string page = "mocapd";
-  if (hearing.status()) page += ' ' + Foreign(hearing.status()->version);
+  if (hearing.HasStatus()) page += ' ' + hearing.report().version;
   page += " on " + Printable(url) + "    Ctrl-C ends\n\n";
   page += Line(hearing) + '\n';
   if (hearing.pose() && hearing.pose()->state != pose_t::SEARCHING) {
@@ -274,9 +215,13 @@ std::string Page(const Hearing& hearing, const std::string& url) {
       page += fmt::format(", stature {:.0f} mm", Sane(hearing.body()->stature_mm));
     page += '\n';
   }
-  if (hearing.people() && hearing.people()->num_people > 1) AppendPeople(*hearing.people(), page);
-  if (hearing.service()) AppendService(*hearing.service(), page);
-  if (hearing.status()) AppendCameras(hearing, page);
+  const ServiceReport& report = hearing.report();
+  if (report.people.size() > 1)
+    page += '\n' + TableOf(PersonFields(), PeopleOf(report), Shown::kInWatch);
+  if (report.told) page += VerdictText(report);
+  if (report.recording.state == RecordingStatus::State::kRunning) page += RunningText(report);
+  if (hearing.HasStatus() && report.told)
+    page += '\n' + CamerasText(hearing) + '\n' + SetsText(report);
   return page;
 }
 

@@ -6,7 +6,6 @@
 #include <utility>
 
 #include "config/body_size_fields.h"
-#include "daemon/status/diagnostics.h"
 
 namespace mocap {
 namespace {
@@ -52,16 +51,6 @@ void WriteRuns(const VoxelGrid& grid, std::vector<std::int32_t>& runs) {
       }
     }
   }
-}
-
-stage_timing_t TimingOf(Stage stage, const LatencyHistogram& histogram) {
-  stage_timing_t timing;
-  timing.name = kStageNames[static_cast<std::size_t>(stage)];
-  timing.count = histogram.count();
-  timing.p50_ms = histogram.PercentileMs(0.5);
-  timing.p99_ms = histogram.PercentileMs(0.99);
-  timing.max_ms = histogram.MaxMs();
-  return timing;
 }
 
 /// Fields that pose_t and people_t share for a set.
@@ -231,80 +220,6 @@ void FillVoxels(const TrackedSet& set, voxels_t& message) {
     bodies.push_back({person.capture->body(), person.capture->result().pose});
   }
   FillVoxels(set.grid, set.capture_ns, set.frame, bodies, message);
-}
-
-void FillStatus(const StatusReport& report, std::int64_t utime, status_t& message) {
-  const PipelineStatus& status = report.status;
-  message.utime = utime;
-  message.version = MOCAP_VERSION;
-  message.state = static_cast<std::int8_t>(status.state);
-  message.sets_complete = status.sets_complete;
-  message.sets_partial = status.sets_partial;
-  message.sets_dropped = status.sets_dropped;
-  message.sets_per_second = report.sets_per_second;
-  message.spread_p50_ms = report.recent[Stage::kSpread].PercentileMs(0.5);
-  message.spread_p99_ms = report.recent[Stage::kSpread].PercentileMs(0.99);
-  message.num_cameras = static_cast<std::int32_t>(status.cameras.size());
-  message.cameras.clear();
-  for (std::size_t i = 0; i < status.cameras.size(); ++i) {
-    const CameraStatus& from = status.cameras[i];
-    camera_status_t& camera = message.cameras.emplace_back();
-    camera.name = from.name;
-    camera.state = static_cast<std::int8_t>(from.state);
-    camera.frames_per_second = report.frames_per_second[i];
-    camera.frames = from.frames;
-    camera.dropped = from.dropped;
-    camera.late = from.late;
-    camera.torn = from.torn;
-  }
-  message.stages.clear();
-  for (const Stage stage : {Stage::kSegment, Stage::kCarve, Stage::kLabel, Stage::kFilter,
-                            Stage::kTotal, Stage::kLatency, Stage::kPublish}) {
-    message.stages.push_back(TimingOf(stage, report.recent[stage]));
-  }
-  message.num_stages = static_cast<std::int32_t>(message.stages.size());
-}
-
-void FillService(const ServiceReport& report, std::int64_t utime, service_t& message) {
-  message.utime = utime;
-  message.version = MOCAP_VERSION;
-  message.studio = report.studio;
-  message.up_seconds = report.up_ns / 1'000'000'000;
-  message.fps_nominal = report.fps_nominal;
-  message.complaint = Diagnostics(report);
-  message.num_complaints = static_cast<std::int32_t>(message.complaint.size());
-  message.calibration = report.calibration.where;
-  message.calibration_made_s = report.calibration.made_s;
-  message.background = report.background.where;
-  message.background_made_s = report.background.made_s;
-  message.bytes_free = report.bytes_free;
-  message.camera_trust.clear();
-  message.camera_off_px.clear();
-  message.camera_light.clear();
-  for (const CameraStatus& camera : report.now.status.cameras) {
-    const bool is_known = camera.health.moments >= HealthWatch::kFewestMoments;
-    message.camera_trust.push_back(is_known ? camera.health.overlap : -1);
-    message.camera_off_px.push_back(is_known ? camera.health.shift_px.norm() : 0);
-    message.camera_light.push_back(camera.light);
-  }
-  message.num_cameras = static_cast<std::int32_t>(message.camera_trust.size());
-  const RecordingStatus& recording = report.recording;
-  message.recording_state = static_cast<std::int8_t>(recording.state);
-  message.recording_folder = recording.folder.string();
-  message.recording_seconds = static_cast<double>(recording.duration_ns) / 1e9;
-  message.recording_frames = recording.frames;
-  message.recording_dropped = recording.dropped;
-}
-
-void FillContrast(const ServiceReport& report, std::int64_t utime, contrast_t& message) {
-  message.utime = utime;
-  message.camera.clear();
-  message.unknown_share.clear();
-  for (const CameraStatus& camera : report.now.status.cameras) {
-    message.camera.push_back(camera.name);
-    message.unknown_share.push_back(camera.health.unknown_share.value_or(-1));
-  }
-  message.num_cameras = static_cast<std::int32_t>(message.camera.size());
 }
 
 }  // namespace mocap

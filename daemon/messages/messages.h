@@ -3,19 +3,14 @@
 
 #include <cstdint>
 #include <mocap/body_t.hpp>
-#include <mocap/contrast_t.hpp>
 #include <mocap/people_t.hpp>
 #include <mocap/person_details_t.hpp>
 #include <mocap/pose_t.hpp>
-#include <mocap/service_t.hpp>
-#include <mocap/status_t.hpp>
 #include <mocap/voxels_t.hpp>
 #include <span>
 
 #include "daemon/messages/voxel_labels.h"
 #include "daemon/pipeline/pose_sink.h"
-#include "daemon/status/service_report.h"
-#include "daemon/status/status_window.h"
 
 namespace mocap {
 
@@ -39,11 +34,5 @@ void FillVoxelGrid(const VoxelGrid& grid, std::int64_t capture_ns, std::int64_t 
 void FillVoxels(const VoxelGrid& grid, std::int64_t capture_ns, std::int64_t frame,
                 std::span<const BodyInPlace> bodies, voxels_t& message);
 void FillVoxels(const TrackedSet& set, voxels_t& message);
-
-void FillStatus(const StatusReport& report, std::int64_t utime, status_t& message);
-
-void FillService(const ServiceReport& report, std::int64_t utime, service_t& message);
-
-void FillContrast(const ServiceReport& report, std::int64_t utime, contrast_t& message);
 
 }  // namespace mocap

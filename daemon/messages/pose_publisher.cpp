@@ -98,7 +98,7 @@ void PosePublisher::PublishPeople(const TrackedSet& set, bool body_is_due) {
 
 void PosePublisher::PublishStatus(const ServiceReport& report) {
   const std::int64_t utime = TimeOfDayNs() / 1000;
-  FillStatus(report.now, utime, status_);
+  FillStatus(report, utime, status_);
   if (watch_) watch_->NoteSent(utime);
   sender_.Send(status_channel_, status_, status_bytes_);
   FillService(report, utime, service_);

@@ -15,6 +15,7 @@
 #include "daemon/messages/lcm_sender.h"
 #include "daemon/messages/messages.h"
 #include "daemon/messages/open_lcm.h"
+#include "daemon/messages/status_messages.h"
 #include "daemon/pipeline/pacer.h"
 #include "daemon/pipeline/pose_sink.h"
 #include "daemon/pipeline/tap.h"

@@ -31,4 +31,9 @@ struct CameraStatus {
   std::string time_source;           ///< Origin of capture times, as of the last change of state.
 };
 
+/// Whether it has been compared with the other cameras often enough.
+inline bool IsCompared(const CameraStatus& camera) {
+  return camera.health.moments >= HealthWatch::kFewestMoments;
+}
+
 }  // namespace mocap

@@ -54,12 +54,11 @@ std::string LiveView::Line(const StatusReport& report) const {
     return value == kUnknown ? std::string("-") : fmt::format("{:.0f} mm", value);
   };
   const CaptureState state = state_.load(std::memory_order_relaxed);
-  std::string line =
-      fmt::format("{:<9}  {:4.1f} sets/s  latency {:3.0f} ms  residual {}  {}",
-                  kCaptureStateNames[static_cast<std::size_t>(state)], report.sets_per_second,
-                  report.recent[Stage::kLatency].PercentileMs(0.5),
-                  millimetres(residual_mm_.load(std::memory_order_relaxed)),
-                  Counted(voxels_.load(std::memory_order_relaxed), "voxel"));
+  std::string line = fmt::format("{:<9}  {:4.1f} sets/s  latency {:3.0f} ms  residual {}  {}",
+                                 kCaptureStateNames[static_cast<std::size_t>(state)],
+                                 report.sets_per_second, report.recent[Stage::kLatency].p50_ms,
+                                 millimetres(residual_mm_.load(std::memory_order_relaxed)),
+                                 Counted(voxels_.load(std::memory_order_relaxed), "voxel"));
   if (const int people = count_.load(std::memory_order_relaxed); people > 1) {
     line += fmt::format("  {} people", people);
   }

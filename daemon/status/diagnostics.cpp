@@ -17,8 +17,6 @@ namespace {
 
 /// Exposures further apart than this share of a period blur moving people.
 constexpr double kWideSpread = 0.25;
-/// The stance of a person cannot explain a larger silhouette shift.
-constexpr double kMoved_px = 2;
 
 /// An older report is out of date.
 constexpr std::int64_t kOld = 5'000'000'000;
@@ -220,11 +218,10 @@ void ComplainOfTriggers(const ServiceReport& report, List& list) {
 /// Names the camera that disagrees most: a bumped one makes the others disagree a little.
 void ComplainOfPlace(const PipelineStatus& status, List& list) {
   const auto off_px = [](const CameraStatus& camera) {
-    const bool is_known = camera.health.moments >= HealthWatch::kFewestMoments;
-    return is_known ? camera.health.shift_px.norm() : 0.0;
+    return IsCompared(camera) ? camera.health.shift_px.norm() : 0.0;
   };
   const auto worst = std::ranges::max_element(status.cameras, {}, off_px);
-  if (worst == status.cameras.end() || off_px(*worst) < kMoved_px) return;
+  if (worst == status.cameras.end() || off_px(*worst) < kMostShift_px) return;
   list.push_back(fmt::format(
       "{} sees the person {:.1f} px away from where the other cameras do: it was moved since it "
       "was calibrated; record a take of a person who walks about, then run mocap calibrate refine",
@@ -276,7 +273,7 @@ void ComplainOfTime(const ServiceReport& report, List& list) {
                     "and voxel size, or is busy with other programs",
                     report.now.sets_dropped_lately));
   }
-  const double spread_ms = report.now.recent[Stage::kSpread].PercentileMs(0.99);
+  const double spread_ms = report.now.recent[Stage::kSpread].p99_ms;
   if (report.fps_nominal > 0 && spread_ms > kWideSpread * 1000 / report.fps_nominal) {
     list.push_back(fmt::format(
         "the cameras' exposures are {:.1f} ms apart: check the trigger or the clocks", spread_ms));
@@ -286,6 +283,7 @@ void ComplainOfTime(const ServiceReport& report, List& list) {
 }  // namespace
 
 std::vector<std::string> Diagnostics(const ServiceReport& report) {
+  if (report.told) return *report.told;
   List list;
   ComplainOfReport(report, list);
   ComplainOfDelivery(report, list);

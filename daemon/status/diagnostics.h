@@ -8,6 +8,9 @@
 
 namespace mocap {
 
+/// The stance of a person cannot explain a larger silhouette shift.
+inline constexpr double kMostShift_px = 2;
+
 /// Lists faults and their remedies, the worst first; empty if all is good. docs/operating.md
 /// explains each line.
 std::vector<std::string> Diagnostics(const ServiceReport& report);

@@ -5,8 +5,6 @@
 #include <string>
 #include <vector>
 
-#include "daemon/base/json_object.h"
-
 namespace mocap {
 
 /// One node, as the studio knows it.
@@ -47,9 +45,5 @@ inline bool IsSilent(const NodeReport& node) {
   constexpr std::int64_t kSilence_ns = 1'000'000'000;
   return !node.was_heard || node.silent_ns > kSilence_ns;
 }
-
-/// A table with one line per node; empty without nodes.
-std::string NodeTable(const NodesReport& report);
-JsonObject NodeJson(const NodeReport& node);
 
 }  // namespace mocap

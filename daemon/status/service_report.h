@@ -39,6 +39,7 @@ struct Delivery {
 
 /// Everything that the service reports on request.
 struct ServiceReport {
+  std::string version = MOCAP_VERSION;
   StatusReport now;
   Fit fit;
   std::vector<FollowedPerson> people;  ///< Sorted by number.
@@ -70,12 +71,20 @@ struct ServiceReport {
   std::string node;                ///< The name of this node; empty: not a node.
   std::optional<StudioLink> link;  ///< Of a node with its studio.
   NodesReport nodes;               ///< A studio's nodes.
+  /// Diagnostics of the mocapd that sent this report; empty: it is of this one.
+  std::optional<std::vector<std::string>> told;
 };
 
+/// How many cameras deliver frames.
+int Streaming(const PipelineStatus& status);
 /// One line: state, rate, latency, cameras, and the first diagnostic.
 std::string ReportLine(const ServiceReport& report);
 /// A page of text.
 std::string ReportText(const ServiceReport& report);
+/// Whether all is good, and otherwise each diagnostic on a line.
+std::string VerdictText(const ServiceReport& report);
+/// How many sets there are, and how long each stage takes.
+std::string SetsText(const ServiceReport& report);
 /// The background's origin and age, and the present light.
 std::string BackgroundText(const ServiceReport& report);
 /// One JSON object.

@@ -6,6 +6,14 @@
 
 namespace mocap {
 
+StageTimings::StageTimings(const StageHistograms& histograms) {
+  for (int i = 0; i < kStageCount; ++i) {
+    const auto stage = static_cast<Stage>(i);
+    const LatencyHistogram& one = histograms[stage];
+    all[i] = {stage, one.count(), one.PercentileMs(0.5), one.PercentileMs(0.99), one.MaxMs()};
+  }
+}
+
 StatusReport StatusWindow::Add(PipelineStatus status, std::int64_t now_ns) {
   StatusReport report;
   report.frames_per_second.resize(status.cameras.size());

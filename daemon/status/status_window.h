@@ -1,6 +1,7 @@
 // Rates and percentiles over the last seconds.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <deque>
@@ -10,10 +11,29 @@
 
 namespace mocap {
 
+/// How long a stage took.
+struct StageTiming {
+  Stage stage = Stage::kSegment;
+  std::int64_t count = 0;
+  double p50_ms = 0;
+  double p99_ms = 0;
+  double max_ms = 0;
+};
+
+/// One for each stage.
+struct StageTimings {
+  std::array<StageTiming, kStageCount> all;
+
+  StageTimings() : StageTimings(StageHistograms()) {}
+  StageTimings(const StageHistograms& histograms);  // NOLINT: the same, summarized.
+  StageTiming& operator[](Stage stage) { return all[static_cast<std::size_t>(stage)]; }
+  const StageTiming& operator[](Stage stage) const { return all[static_cast<std::size_t>(stage)]; }
+};
+
 /// Counters since the start, with rates and timings of the last seconds.
 struct StatusReport {
   PipelineStatus status;       ///< Counters; its timings cover the time since the start.
-  StageHistograms recent;      ///< Timings within the window.
+  StageTimings recent;         ///< Within the window.
   std::int64_t window_ns = 0;  ///< Length of the window of "lately"; 0: no window yet.
   double sets_per_second = 0;
   std::int64_t sets_complete_lately = 0;

@@ -108,8 +108,8 @@ std::int64_t FramesWritten(const std::filesystem::path& socket) {
   try {
     const std::string status = AskDaemon(socket, "status json").text;
     const std::size_t recording = status.find("\"recording\"");
-    const std::size_t frames = status.find("\"frames\": ", recording);
-    return recording == std::string::npos ? -1 : std::stoll(status.substr(frames + 10));
+    const std::size_t frames = status.find("\"frames\":", recording);
+    return recording == std::string::npos ? -1 : std::stoll(status.substr(frames + 9));
   } catch (const std::runtime_error&) {
     return -1;
   }

@@ -87,9 +87,8 @@ TEST_F(CalibrateCommand, CamerasThatTheFootageLacksAreToldBeforeTheSearch) {
 
 TEST_F(CalibrateCommand, ATapeAloneSetsTheScale) {
   const double before_mm = DistanceOf(testing::WalkCameras());
-  const std::string said =
-      Says("floor " + In("right.toml") + " --set-scale --distance cam1:cam4:" +
-           std::to_string(1.1 * before_mm) + " --out " + In("c.toml"));
+  const std::string said = Says("floor " + In("right.toml") + " --set-scale --distance cam1:cam4:" +
+                                std::to_string(1.1 * before_mm) + " --out " + In("c.toml"));
   EXPECT_THAT(said, AllOf(HasSubstr("note: cam1 and cam4 are "), HasSubstr(" mm by the tape"),
                           HasSubstr("is good"), Not(HasSubstr("the floor is not set")),
                           HasSubstr("written: " + In("c.toml") + "\n")));
@@ -115,8 +114,8 @@ TEST_F(CalibrateCommand, WhatWasNotMeasuredIsNoZero) {
     one.lens_rms_px = 0.25;
   }
   EXPECT_THAT(FitText(fit, {}), HasSubstr("cam1            0    0.250        -           -"));
-  EXPECT_THAT(FitJson(fit, {}), AllOf(HasSubstr("\"lens_rms_px\": 0.25"),
-                                      Not(HasSubstr("\"rms_mm\""))));
+  EXPECT_THAT(FitJson(fit, {}),
+              AllOf(HasSubstr("\"lens_rms_px\":0.25"), Not(HasSubstr("\"rms_mm\""))));
 }
 
 TEST_F(CalibrateCommand, ATapeInMetresIsNoDistanceOfCameras) {

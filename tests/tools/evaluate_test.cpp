@@ -60,16 +60,16 @@ class EvaluateTest : public ::testing::Test {
 TEST_F(EvaluateTest, PrintsOneJsonObjectWithTheFigures) {
   const std::string json = Run({"evaluate", take_.string(), result_.string(), "--json"});
   EXPECT_THAT(json, ::testing::MatchesRegex("\\{[^\n]*\\}\n"));
-  EXPECT_THAT(json, HasSubstr("\"frames\": 20,"));
-  EXPECT_THAT(json, HasSubstr("\"acquiring\": 2, \"tracking\": 18,"));
-  EXPECT_THAT(json, HasSubstr("\"tracked_share\": 1,"));
-  EXPECT_THAT(json, HasSubstr("\"first_tracked_frame\": 2,"));
-  EXPECT_THAT(json, HasSubstr("\"mpjpe_mm\": 12, \"median_mm\": 12, \"p95_mm\": 12"));
-  EXPECT_THAT(json, HasSubstr("\"head_found_share\": 1,"));
-  EXPECT_THAT(json, HasSubstr("\"angle_mae_deg\": 0,"));
-  EXPECT_THAT(json, HasSubstr("\"length_error_mm\": {\"torso_mm\": 10}"));
-  EXPECT_THAT(json, HasSubstr("\"precision\": {\"frames\": 18,"));
-  EXPECT_THAT(json, HasSubstr("\"point_mean_mm\": 0,"));
+  EXPECT_THAT(json, HasSubstr("\"frames\":20,"));
+  EXPECT_THAT(json, HasSubstr("\"acquiring\":2,\"tracking\":18,"));
+  EXPECT_THAT(json, HasSubstr("\"tracked_share\":1,"));
+  EXPECT_THAT(json, HasSubstr("\"first_tracked_frame\":2,"));
+  EXPECT_THAT(json, HasSubstr("\"mpjpe_mm\":12,\"median_mm\":12,\"p95_mm\":12"));
+  EXPECT_THAT(json, HasSubstr("\"head_found_share\":1,"));
+  EXPECT_THAT(json, HasSubstr("\"angle_mae_deg\":0,"));
+  EXPECT_THAT(json, HasSubstr("\"length_error_mm\":{\"torso_mm\":10}"));
+  EXPECT_THAT(json, HasSubstr("\"precision\":{\"frames\":18,"));
+  EXPECT_THAT(json, HasSubstr("\"point_mean_mm\":0,"));
 }
 
 TEST_F(EvaluateTest, PrintsATableForPeople) {
@@ -108,8 +108,8 @@ TEST_F(EvaluateTest, FramesAreThoseOfTheResultWhateverTruthThereIs) {
   for (int i = 0; i < 5; ++i) row = truth.find('\n', row) + 1;
   testing::WriteText(file, truth.erase(first_row, row - first_row));
   EXPECT_THAT(Run({"evaluate", take_.string(), result_.string(), "--json"}),
-              AllOf(HasSubstr("\"frames\": 20, \"truth_frames\": 15"),
-                    HasSubstr("\"first_tracked_frame\": 2,")));
+              AllOf(HasSubstr("\"frames\":20,\"truth_frames\":15"),
+                    HasSubstr("\"first_tracked_frame\":2,")));
 }
 
 TEST_F(EvaluateTest, TellsWhatFitAndDeviationsAreWorth) {
@@ -125,9 +125,9 @@ TEST_F(EvaluateTest, TellsWhatFitAndDeviationsAreWorth) {
   }
   WriteResult(result_, result);
   const std::string json = Run({"evaluate", take_.string(), result_.string(), "--json"});
-  EXPECT_THAT(json, HasSubstr("\"residual_p95_mm\": 16, \"deviation_median_mm\": 7, "
-                              "\"error_of_better_half_mm\": 12, \"error_of_worse_half_mm\": 24, "
-                              "\"errors_within_two_deviations\": 0.5}"));
+  EXPECT_THAT(json, HasSubstr("\"residual_p95_mm\":16,\"deviation_median_mm\":7,"
+                              "\"error_of_better_half_mm\":12,\"error_of_worse_half_mm\":24,"
+                              "\"errors_within_two_deviations\":0.5}"));
   EXPECT_THAT(
       Run({"evaluate", take_.string(), result_.string()}),
       HasSubstr("95 % below 16.0 mm; mean error 12.0 mm in the half that fits better, 24.0 "
@@ -150,11 +150,11 @@ TEST_F(EvaluateTest, TellsHowTrueProbabilitiesAre) {
   WriteResult(result_, result);
   // Nobody is tracked in the first two of 20.
   const std::string json = Run({"evaluate", take_.string(), result_.string(), "--json"});
-  EXPECT_THAT(json, HasSubstr("\"probabilities\": [{\"from\": 0, \"to\": 0.5, \"frames\": 0}, "
-                              "{\"from\": 0.5, \"to\": 0.9, \"frames\": 8, "
-                              "\"mean_probability\": 0.6, \"right_share\": 0.75}, "
-                              "{\"from\": 0.9, \"to\": 1, \"frames\": 9, "
-                              "\"mean_probability\": 0.9889, \"right_share\": 1}]"));
+  EXPECT_THAT(json, HasSubstr("\"probabilities\":[{\"from\":0,\"to\":0.5,\"frames\":0},"
+                              "{\"from\":0.5,\"to\":0.9,\"frames\":8,"
+                              "\"mean_probability\":0.6,\"right_share\":0.75},"
+                              "{\"from\":0.9,\"to\":1,\"frames\":9,"
+                              "\"mean_probability\":0.9889,\"right_share\":1}]"));
   EXPECT_THAT(Run({"evaluate", take_.string(), result_.string()}),
               HasSubstr("\n  probability      frames     mean    right    right: mean error below "
                         "100 mm\n"
@@ -181,8 +181,8 @@ TEST_F(EvaluateTest, ReportStandsAlone) {
   const std::filesystem::path report = folder_.path() / "report.html";
   const std::string json =
       Run({"evaluate", take_.string(), result_.string(), "--json", "--report", report.string()});
-  EXPECT_THAT(json, HasSubstr("\"hull_iou\": {\"east\": "));
-  EXPECT_THAT(json, HasSubstr("\"unknown_share\": {\"east\": 0"));
+  EXPECT_THAT(json, HasSubstr("\"hull_iou\":{\"east\":"));
+  EXPECT_THAT(json, HasSubstr("\"unknown_share\":{\"east\":0"));
   const std::string html = testing::ReadText(report);
   // Nothing is loaded: no address, and scripts, styles and pictures only from within.
   EXPECT_THAT(html, HasSubstr("default-src 'none'; script-src 'sha256-"));

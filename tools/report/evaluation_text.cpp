@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 
 #include "core/degrees.h"
-#include "daemon/base/json_object.h"
+#include "daemon/base/json.h"
 #include "drivers/printable_text.h"
 
 namespace mocap {
@@ -56,60 +56,62 @@ std::string LengthsText(const Evaluation& evaluation) {
   return text;
 }
 
-JsonObject PrecisionJson(const Precision& precision) {
-  JsonObject angles, points, json;
+Json PrecisionJson(const Precision& precision) {
+  Json angles = Json::object(), points = Json::object(), json = Json::object();
   for (int i = 0; i < kPaperAngleCount; ++i) {
-    angles.Add(fmt::format("theta_{}", i + 1), precision.angle_rad[i] * kDegreesPerRad, 3);
+    angles[fmt::format("theta_{}", i + 1)] = Rounded(precision.angle_rad[i] * kDegreesPerRad, 3);
   }
-  for (int i = 0; i < kPointCount; ++i) points.Add(kPointNames[i], precision.point_mm[i], 2);
-  json.Add("frames", precision.frames);
-  json.Add("angle_mean_deg", precision.mean_angle_rad * kDegreesPerRad, 3);
-  json.Add("angle_mean_without_twist_deg", precision.mean_angle_without_twist_rad * kDegreesPerRad,
-           3);
-  json.Add("point_mean_mm", precision.mean_point_mm, 2);
-  json.Add("angles_deg", angles);
-  json.Add("points_mm", points);
+  for (int i = 0; i < kPointCount; ++i)
+    points[std::string(kPointNames[i])] = Rounded(precision.point_mm[i], 2);
+  json["frames"] = precision.frames;
+  json["angle_mean_deg"] = Rounded(precision.mean_angle_rad * kDegreesPerRad, 3);
+  json["angle_mean_without_twist_deg"] =
+      Rounded(precision.mean_angle_without_twist_rad * kDegreesPerRad, 3);
+  json["point_mean_mm"] = Rounded(precision.mean_point_mm, 2);
+  json["angles_deg"] = angles;
+  json["points_mm"] = points;
   return json;
 }
 
-JsonObject CertaintyJson(const Certainty& certainty) {
-  JsonObject json;
-  json.Add("residual_median_mm", certainty.median_fit_mm, 2);
-  json.Add("residual_p95_mm", certainty.p95_fit_mm, 2);
+Json CertaintyJson(const Certainty& certainty) {
+  Json json = Json::object();
+  json["residual_median_mm"] = Rounded(certainty.median_fit_mm, 2);
+  json["residual_p95_mm"] = Rounded(certainty.p95_fit_mm, 2);
   if (certainty.median_deviation_mm)
-    json.Add("deviation_median_mm", *certainty.median_deviation_mm, 2);
+    json["deviation_median_mm"] = Rounded(*certainty.median_deviation_mm, 2);
   if (!certainty.check) return json;
-  json.Add("error_of_better_half_mm", certainty.check->better_half_mm, 1);
-  json.Add("error_of_worse_half_mm", certainty.check->worse_half_mm, 1);
+  json["error_of_better_half_mm"] = Rounded(certainty.check->better_half_mm, 1);
+  json["error_of_worse_half_mm"] = Rounded(certainty.check->worse_half_mm, 1);
   if (const auto& share = certainty.check->within_two_deviations)
-    json.Add("errors_within_two_deviations", *share, 4);
+    json["errors_within_two_deviations"] = Rounded(*share, 4);
   const ProbabilityCheck& probabilities = certainty.check->probabilities;
-  if (!probabilities.IsEmpty()) json.Add("probabilities", ProbabilityJson(probabilities));
+  if (!probabilities.IsEmpty()) json["probabilities"] = ProbabilityJson(probabilities);
   return json;
 }
 
-void AddAccuracy(const Evaluation& evaluation, JsonObject& json) {
+void AddAccuracy(const Evaluation& evaluation, Json& json) {
   const Accuracy& accuracy = *evaluation.accuracy;
   if (accuracy.frames.empty()) return;
-  JsonObject angles, points, lengths;
+  Json angles = Json::object(), points = Json::object(), lengths = Json::object();
   for (int i = 0; i < kScoredAngleCount; ++i) {
-    angles.Add(kScoredAngleNames[i], accuracy.angle_rad[i] * kDegreesPerRad, 2);
+    angles[std::string(kScoredAngleNames[i])] = Rounded(accuracy.angle_rad[i] * kDegreesPerRad, 2);
   }
-  for (int i = 0; i < kScoredPointCount; ++i) points.Add(PointName(i), accuracy.point_mm[i], 1);
+  for (int i = 0; i < kScoredPointCount; ++i)
+    points[std::string(PointName(i))] = Rounded(accuracy.point_mm[i], 1);
   for (const LengthPair& pair : evaluation.lengths) {
-    lengths.Add(pair.name + "_mm", pair.acquired_mm - pair.true_mm, 1);
+    lengths[pair.name + "_mm"] = Rounded(pair.acquired_mm - pair.true_mm, 1);
   }
   const DistanceSummary& d = accuracy.distance_mm;
-  json.Add("mpjpe_mm", d.mean, 1);
-  json.Add("median_mm", d.median, 1);
-  json.Add("p95_mm", d.p95, 1);
-  json.Add("worst_mm", d.worst, 1);
-  json.Add("spread_mm", accuracy.spread_mm, 1);
-  json.Add("head_found_share", accuracy.head_found_share, 4);
-  json.Add("angle_mae_deg", accuracy.mean_angle_rad * kDegreesPerRad, 2);
-  json.Add("angles_deg", angles);
-  json.Add("points_mm", points);
-  json.Add("length_error_mm", lengths);
+  json["mpjpe_mm"] = Rounded(d.mean, 1);
+  json["median_mm"] = Rounded(d.median, 1);
+  json["p95_mm"] = Rounded(d.p95, 1);
+  json["worst_mm"] = Rounded(d.worst, 1);
+  json["spread_mm"] = Rounded(accuracy.spread_mm, 1);
+  json["head_found_share"] = Rounded(accuracy.head_found_share, 4);
+  json["angle_mae_deg"] = Rounded(accuracy.mean_angle_rad * kDegreesPerRad, 2);
+  json["angles_deg"] = angles;
+  json["points_mm"] = points;
+  json["length_error_mm"] = lengths;
 }
 
 }  // namespace
@@ -146,42 +148,41 @@ std::string EvaluationText(const Evaluation& evaluation) {
   return text + "accuracy    the take has no truth\n";
 }
 
-void AddEvaluation(const Evaluation& evaluation, JsonObject& json) {
+void AddEvaluation(const Evaluation& evaluation, Json& json) {
   const auto& accuracy = evaluation.accuracy;
-  JsonObject states;
+  Json states = Json::object();
   for (std::size_t i = 0; i < kCaptureStateNames.size(); ++i) {
-    states.Add(kCaptureStateNames[i], evaluation.frames_in_state[i]);
+    states[std::string(kCaptureStateNames[i])] = evaluation.frames_in_state[i];
   }
-  json.Add("body", evaluation.result.body.model);
+  json["body"] = evaluation.result.body.model;
   const bool is_tracked = evaluation.first_tracked_pose >= 0;
-  if (is_tracked) json.Add("stature_mm", evaluation.result.body.stature_mm, 1);
-  json.Add("frames", static_cast<int>(evaluation.result.poses.size()));
-  if (accuracy) json.Add("truth_frames", accuracy->truth_frames);
+  if (is_tracked) json["stature_mm"] = Rounded(evaluation.result.body.stature_mm, 1);
+  json["frames"] = evaluation.result.poses.size();
+  if (accuracy) json["truth_frames"] = accuracy->truth_frames;
   if (is_tracked)
-    json.Add("first_tracked_frame",
-             static_cast<int>(evaluation.result.poses[evaluation.first_tracked_pose].frame));
-  json.Add("states", states);
-  json.Add("tracked_share", accuracy ? accuracy->tracked_share : evaluation.tracked_share, 4);
-  json.Add("residual_mm", evaluation.mean_residual_mm, 2);
+    json["first_tracked_frame"] = evaluation.result.poses[evaluation.first_tracked_pose].frame;
+  json["states"] = states;
+  json["tracked_share"] = Rounded(accuracy ? accuracy->tracked_share : evaluation.tracked_share, 4);
+  json["residual_mm"] = Rounded(evaluation.mean_residual_mm, 2);
   if (accuracy) AddAccuracy(evaluation, json);
-  if (evaluation.certainty) json.Add("certainty", CertaintyJson(*evaluation.certainty));
-  if (evaluation.precision) json.Add("precision", PrecisionJson(*evaluation.precision));
+  if (evaluation.certainty) json["certainty"] = CertaintyJson(*evaluation.certainty);
+  if (evaluation.precision) json["precision"] = PrecisionJson(*evaluation.precision);
 }
 
 std::string EvaluationJson(const Evaluation& evaluation, std::span<const CameraOverlap> overlaps) {
-  JsonObject json;
-  json.Add("take", evaluation.take);
+  Json json = Json::object();
+  json["take"] = evaluation.take;
   AddEvaluation(evaluation, json);
   if (!overlaps.empty()) {
-    JsonObject iou, unknown;
+    Json iou = Json::object(), unknown = Json::object();
     for (const CameraOverlap& overlap : overlaps) {
-      if (overlap.frames() > 0) iou.Add(overlap.camera, overlap.mean(), 4);
-      if (overlap.unknown_share) unknown.Add(overlap.camera, *overlap.unknown_share, 4);
+      if (overlap.frames() > 0) iou[overlap.camera] = Rounded(overlap.mean(), 4);
+      if (overlap.unknown_share) unknown[overlap.camera] = Rounded(*overlap.unknown_share, 4);
     }
-    json.Add("hull_iou", iou);
-    json.Add("unknown_share", unknown);
+    json["hull_iou"] = iou;
+    json["unknown_share"] = unknown;
   }
-  return json.Text() + '\n';
+  return JsonText(json) + '\n';
 }
 
 }  // namespace mocap

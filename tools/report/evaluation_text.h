@@ -4,7 +4,7 @@
 #include <span>
 #include <string>
 
-#include "daemon/base/json_object.h"
+#include "daemon/base/json.h"
 #include "tools/report/evaluation.h"
 #include "tools/report/hull_overlap.h"
 
@@ -14,7 +14,7 @@ namespace mocap {
 std::string EvaluationText(const Evaluation& evaluation);
 
 /// Adds one person's figures; angles in degrees.
-void AddEvaluation(const Evaluation& evaluation, JsonObject& json);
+void AddEvaluation(const Evaluation& evaluation, Json& json);
 
 /// One JSON object; angles in degrees. `overlaps` may be empty.
 std::string EvaluationJson(const Evaluation& evaluation, std::span<const CameraOverlap> overlaps);

@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "daemon/base/json_object.h"
+#include "daemon/base/json.h"
 #include "drivers/printable_text.h"
 #include "tools/report/evaluation_text.h"
 
@@ -71,14 +71,14 @@ std::string TrueTable(const PeopleEvaluation& evaluation) {
              kTrueColumnsText, evaluation.phantom_frames, evaluation.duplicate_frames);
 }
 
-JsonObject FollowedJson(const FollowedTruth& followed) {
-  JsonObject json;
-  json.Add("frames", followed.frames);
-  json.Add("found_frames", followed.found);
-  json.Add("covered_frames", followed.covered);
-  if (followed.covered > 0) json.Add("found_while_covered_share", FoundShare(followed), 4);
-  json.Add("switches", followed.switches);
-  if (followed.found > 0) json.Add("mpjpe_mm", followed.mean_mm, 1);
+Json FollowedJson(const FollowedTruth& followed) {
+  Json json = Json::object();
+  json["frames"] = followed.frames;
+  json["found_frames"] = followed.found;
+  json["covered_frames"] = followed.covered;
+  if (followed.covered > 0) json["found_while_covered_share"] = Rounded(FoundShare(followed), 4);
+  json["switches"] = followed.switches;
+  if (followed.found > 0) json["mpjpe_mm"] = Rounded(followed.mean_mm, 1);
   return json;
 }
 
@@ -110,34 +110,34 @@ std::string PeopleText(const PeopleEvaluation& evaluation) {
 }
 
 std::string PeopleJson(const PeopleEvaluation& evaluation) {
-  std::vector<JsonObject> people, truth;
+  Json people = Json::array(), truth = Json::array();
   for (const TrackedPerson& person : evaluation.people) {
-    JsonObject& json = people.emplace_back();
-    json.Add("name", person.name);
+    Json& json = people.emplace_back();
+    json["name"] = person.name;
     if (!evaluation.truth.empty()) {
-      json.Add("true_person", NameOfTruth(evaluation, person));
-      json.Add("phantom_frames", person.phantom_frames);
-      json.Add("duplicate_frames", person.duplicate_frames);
+      json["true_person"] = NameOfTruth(evaluation, person);
+      json["phantom_frames"] = person.phantom_frames;
+      json["duplicate_frames"] = person.duplicate_frames;
     }
     AddEvaluation(person.evaluation, json);
   }
   for (std::size_t i = 0; i < evaluation.truth.size(); ++i) {
-    JsonObject& json = truth.emplace_back();
-    json.Add("name", evaluation.truth[i].name);
-    json.Add("followed", FollowedJson(evaluation.followed[i]));
+    Json& json = truth.emplace_back();
+    json["name"] = evaluation.truth[i].name;
+    json["followed"] = FollowedJson(evaluation.followed[i]);
   }
-  JsonObject json;
-  json.Add("take", evaluation.take);
-  json.Add("people", people);
+  Json json = Json::object();
+  json["take"] = evaluation.take;
+  json["people"] = people;
   if (!evaluation.truth.empty()) {
-    json.Add("truth", truth);
-    json.Add("all", FollowedJson(evaluation.sum));
+    json["truth"] = truth;
+    json["all"] = FollowedJson(evaluation.sum);
     const ProbabilityCheck probabilities = ProbabilitiesOf(evaluation);
-    if (!probabilities.IsEmpty()) json.Add("probabilities", ProbabilityJson(probabilities));
-    json.Add("phantom_frames", evaluation.phantom_frames);
-    json.Add("duplicate_frames", evaluation.duplicate_frames);
+    if (!probabilities.IsEmpty()) json["probabilities"] = ProbabilityJson(probabilities);
+    json["phantom_frames"] = evaluation.phantom_frames;
+    json["duplicate_frames"] = evaluation.duplicate_frames;
   }
-  return json.Text() + '\n';
+  return JsonText(json) + '\n';
 }
 
 }  // namespace mocap

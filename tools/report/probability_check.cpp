@@ -55,16 +55,16 @@ std::string ProbabilityTable(const ProbabilityCheck& check) {
   return text;
 }
 
-std::vector<JsonObject> ProbabilityJson(const ProbabilityCheck& check) {
-  std::vector<JsonObject> json;
+Json ProbabilityJson(const ProbabilityCheck& check) {
+  Json json = Json::array();
   for (const ProbabilityBin& bin : check.bins) {
-    JsonObject& one = json.emplace_back();
-    one.Add("from", bin.least, 1);
-    one.Add("to", bin.most, 1);
-    one.Add("frames", bin.frames);
+    Json& one = json.emplace_back();
+    one["from"] = Rounded(bin.least, 1);
+    one["to"] = Rounded(bin.most, 1);
+    one["frames"] = bin.frames;
     if (bin.frames == 0) continue;
-    one.Add("mean_probability", MeanProbability(bin), 4);
-    one.Add("right_share", RightShare(bin), 4);
+    one["mean_probability"] = Rounded(MeanProbability(bin), 4);
+    one["right_share"] = Rounded(RightShare(bin), 4);
   }
   return json;
 }

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "core/evaluation/accuracy.h"
-#include "daemon/base/json_object.h"
+#include "daemon/base/json.h"
 #include "tools/results/result.h"
 
 namespace mocap {
@@ -37,6 +37,6 @@ ProbabilityCheck CheckProbabilities(const std::vector<PoseRow>& poses, const Acc
 /// A table for a terminal; empty without frames.
 std::string ProbabilityTable(const ProbabilityCheck& check);
 /// One object for each bin: from, to, frames; if it has any, mean_probability and right_share.
-std::vector<JsonObject> ProbabilityJson(const ProbabilityCheck& check);
+Json ProbabilityJson(const ProbabilityCheck& check);
 
 }  // namespace mocap

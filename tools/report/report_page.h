@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-#include "tools/page/json_text.h"
+#include "daemon/base/json.h"
 
 namespace mocap {
 

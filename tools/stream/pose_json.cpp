@@ -5,7 +5,7 @@
 #include <iterator>
 
 #include "core/motion_capture.h"
-#include "tools/page/json_text.h"
+#include "daemon/base/json.h"
 #include "tools/results/message_body.h"
 
 namespace mocap {

@@ -1,6 +1,6 @@
 #include "tools/view/camera_json.h"
 
-#include "tools/page/json_text.h"
+#include "daemon/base/json.h"
 
 namespace mocap {
 namespace {

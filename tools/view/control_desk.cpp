@@ -5,9 +5,9 @@
 #include <string_view>
 #include <utility>
 
+#include "daemon/base/json.h"
 #include "daemon/control/control_request.h"
 #include "daemon/control/control_socket.h"
-#include "tools/page/json_text.h"
 #include "tools/view/access.h"
 
 namespace mocap {

@@ -5,7 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "config/body_size_fields.h"
-#include "tools/page/json_text.h"
+#include "daemon/base/json.h"
 #include "tools/report/body_outline.h"
 #include "tools/results/message_body.h"
 

@@ -8,12 +8,13 @@
 
 #include "config/load_config.h"
 #include "core/errors.h"
+#include "daemon/base/json.h"
 #include "daemon/messages/channel_name.h"
 #include "daemon/messages/decode_message.h"
 #include "daemon/messages/reduced_picture.h"
+#include "daemon/messages/status_messages.h"
 #include "daemon/pipeline/carve_stage.h"
 #include "drivers/clock.h"
-#include "tools/page/json_text.h"
 #include "tools/page/picture_lines.h"
 #include "tools/report/body_outline.h"
 #include "tools/results/message_body.h"
@@ -185,14 +186,15 @@ void LiveFeed::OnStatus(const lcm::ReceiveBuffer* buffer, const std::string&) {
   const std::optional<status_t> status = Decoded<status_t>(*buffer);
   if (!status) return;
   heard_ns_ = SteadyNs();
-  put_(kStatus, For(kStatusHoldsNs, Text(StatusJson(*status, service_))));
+  TakeStatus(*status, report_);
 }
 
+// The daemon sends it right after the status.
 void LiveFeed::OnService(const lcm::ReceiveBuffer* buffer, const std::string&) {
-  std::optional<service_t> service = Decoded<service_t>(*buffer);
+  const std::optional<service_t> service = Decoded<service_t>(*buffer);
   if (!service) return;
-  service_ = std::move(service);
-  put_(kService, For(kStatusHoldsNs, Text(ServiceJson(*service_))));
+  TakeService(*service, report_);
+  put_(kStatus, For(kStatusHoldsNs, Text(StatusJson(report_))));
 }
 
 void LiveFeed::OnContrast(const lcm::ReceiveBuffer* buffer, const std::string&) {

@@ -8,7 +8,6 @@
 #include <map>
 #include <mocap/contrast_t.hpp>
 #include <mocap/preview_t.hpp>
-#include <mocap/service_t.hpp>
 #include <mocap/studio_t.hpp>
 #include <mocap/unknown_t.hpp>
 #include <optional>
@@ -17,6 +16,7 @@
 
 #include "core/reconstruction/camera/camera_model.h"
 #include "daemon/messages/silence.h"
+#include "daemon/status/service_report.h"
 #include "tools/view/drawn_body.h"
 #include "tools/view/live_board.h"
 #include "tools/view/live_people.h"
@@ -32,7 +32,6 @@ class LiveFeed {
     kBody,
     kPeople,
     kStatus,
-    kService,
     kNotice,
     kPoses,  ///< Everyone's of one set; the person tracked longest is first.
     kVoxels,
@@ -90,7 +89,7 @@ class LiveFeed {
   SetDetails details_;
   std::optional<std::int64_t> people_ns_;  ///< Time of the last MOCAP_PEOPLE, by the steady clock.
   std::optional<pose_t> first_;            ///< Drawn while MOCAP_PEOPLE has nobody.
-  std::optional<service_t> service_;
+  ServiceReport report_;                   ///< As far as messages tell it.
   contrast_t contrast_{};
   studio_t studio_{};
   std::vector<CameraCalibration> cameras_;

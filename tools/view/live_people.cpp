@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "core/people/people_capture.h"
-#include "tools/page/json_text.h"
+#include "daemon/base/json.h"
 #include "tools/results/pose_log.h"
 
 namespace mocap {

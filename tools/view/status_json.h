@@ -1,15 +1,14 @@
 // Status of the service, for the page.
 #pragma once
 
-#include <mocap/service_t.hpp>
-#include <mocap/status_t.hpp>
-#include <optional>
 #include <string>
+
+#include "daemon/status/service_report.h"
 
 namespace mocap {
 
-/// @param service  trust and light of the cameras; may be unknown yet.
-std::string StatusJson(const status_t& status, const std::optional<service_t>& service);
-std::string ServiceJson(const service_t& service);
+/// The status as `mocap status --json` has it. What is not known of a camera is null. `poor` lists
+/// what is not good, for the service and for each camera.
+std::string StatusJson(const ServiceReport& report);
 
 }  // namespace mocap

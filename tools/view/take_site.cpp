@@ -9,11 +9,11 @@
 #include <optional>
 #include <utility>
 
+#include "daemon/base/json.h"
 #include "daemon/messages/messages.h"
 #include "daemon/messages/reduced_picture.h"
 #include "drivers/quoted.h"
 #include "drivers/take/input_file.h"
-#include "tools/page/json_text.h"
 #include "tools/page/picture_lines.h"
 #include "tools/report/body_outline.h"
 #include "tools/results/export_axes.h"

@@ -139,9 +139,9 @@ TEST(PeopleText, HasARowForEachAndTheSum) {
   EXPECT_THAT(PeopleReportHtml(evaluation, {}, {}), HasSubstr("\"text\":\"covered: frames in"));
   EXPECT_THAT(text, HasSubstr("frames of tracks without a person (phantom): 8\n"));
   const std::string json = PeopleJson(evaluation);
-  EXPECT_THAT(json, HasSubstr("\"phantom_frames\": 8, \"duplicate_frames\": 0}"));
-  EXPECT_THAT(json, HasSubstr("\"name\": \"person-1\", \"true_person\": \"bert\""));
-  EXPECT_THAT(json, HasSubstr("\"found_while_covered_share\": 0.5,"));
+  EXPECT_THAT(json, HasSubstr("\"phantom_frames\":8,\"duplicate_frames\":0}"));
+  EXPECT_THAT(json, HasSubstr("\"name\":\"person-1\",\"true_person\":\"bert\""));
+  EXPECT_THAT(json, HasSubstr("\"found_while_covered_share\":0.5,"));
 }
 
 TEST(PeopleText, ProbabilitiesAreThoseOfEverybody) {
@@ -155,7 +155,7 @@ TEST(PeopleText, ProbabilitiesAreThoseOfEverybody) {
                      {Standing("anna", 0, 15, 0), Standing("bert", 0, 15, 2000)});
   EXPECT_THAT(PeopleText(evaluation), HasSubstr("\n  0.9 to 1             25    0.978   80.0 %\n"));
   EXPECT_THAT(PeopleJson(evaluation),
-              HasSubstr("\"probabilities\": [{\"from\": 0, \"to\": 0.5, \"frames\": 0}, "));
+              HasSubstr("\"probabilities\":[{\"from\":0,\"to\":0.5,\"frames\":0},"));
 }
 
 TEST(PeopleText, NothingIsSaidOfFramesThatAreNone) {

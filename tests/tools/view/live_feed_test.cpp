@@ -8,6 +8,7 @@
 #include <lcm/lcm-cpp.hpp>
 #include <limits>
 #include <map>
+#include <mocap/service_t.hpp>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
@@ -385,7 +386,7 @@ TEST_F(LiveFeedTest, WordsThatAreNoUtf8DoNoHarm) {
   service.num_complaints = 1;
   service.complaint = {"\xc3"};
   Publish("left.MOCAP_SERVICE", service);
-  EXPECT_EQ(Json(LiveFeed::kService)["complaints"].size(), 1u);
+  EXPECT_EQ(Json(LiveFeed::kStatus)["complaints"].size(), 1u);
 }
 
 }  // namespace

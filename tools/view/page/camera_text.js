@@ -2,14 +2,9 @@
 
 import {fixed, measured, percent} from './text.js';
 
-const LEAST_TRUST = 0.5;
-const MOST_OFF_PX = 2;
-
 /** @return a camera's state, or that its silhouettes disagree with the other cameras. */
-export function lookOfCamera({state, trust, off_px: offPx}) {
-  if (state !== 'streaming') return state;
-  const isOff = trust !== null && (trust < LEAST_TRUST || Math.abs(offPx ?? 0) > MOST_OFF_PX);
-  return isOff ? 'not trusted' : 'streaming';
+export function lookOfCamera({state, poor}) {
+  return state === 'streaming' && poor.length > 0 ? 'not trusted' : state;
 }
 
 /** @return the figures of a camera's line in `mocap status`. */

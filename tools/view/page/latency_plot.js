@@ -7,7 +7,8 @@ import {color, onTheme} from './theme.js';
 import {niceTop} from './timeline.js';
 
 const SECONDS = 120;
-const STAGES = ['segment', 'carve', 'label', 'filter', 'total', 'publish'];
+const ROWS = ['segment', 'carve', 'label', 'filter', 'total', 'publish'];
+export const STAGES = [...ROWS, 'latency'];
 
 export class LatencyPlot {
   constructor() {
@@ -35,7 +36,7 @@ export class LatencyPlot {
     const last = this.series.get('latency')?.at(-1);
     setText(byId('latency-p50'), fixed(last?.p50, 1));
     setText(byId('latency-p99'), fixed(last?.p99, 1));
-    for (const name of STAGES.filter((stage) => this.series.has(stage))) {
+    for (const name of ROWS.filter((stage) => this.series.has(stage))) {
       const {p50, p99} = this.series.get(name).at(-1);
       const row = this.row(name);
       setText(row.p50, fixed(p50, 1));

@@ -3,7 +3,7 @@
 import {Actions} from './actions.js';
 import {factsOf, lookOfCamera} from './camera_text.js';
 import {byId, setText} from './dom.js';
-import {LatencyPlot} from './latency_plot.js';
+import {LatencyPlot, STAGES} from './latency_plot.js';
 import {OLD_MS, People} from './people.js';
 import {Socket} from './socket.js';
 import {StatePanel, verdictOf} from './state_panel.js';
@@ -22,8 +22,6 @@ export class Live {
     this.cameras = [];
     this.status = null;
     this.statusMs = null;
-    this.service = null;
-    this.serviceMs = null;
     this.poseMs = null;
     this.toldMs = 0;
     this.notice = {pictures: '', silence: '', control: ''};
@@ -53,7 +51,6 @@ export class Live {
       body: () => this.takeBody(message),
       people: () => this.people.takePeople(message),
       status: () => this.takeStatus(message),
-      service: () => this.takeService(message),
       notice: () => this.takeNotice(message),
     }[message?.type];
     take?.();
@@ -77,17 +74,11 @@ export class Live {
   takeStatus(status) {
     this.status = status;
     this.statusMs = performance.now();
-    this.panel.setStatus(status);
-    this.latency.take(status.stages);
-  }
-
-  takeService(service) {
-    this.service = service;
-    this.serviceMs = performance.now();
     const {clock} = this.people;
-    const serverNowMs = clock.isKnown ? clock.serverNow(this.serviceMs) : Date.now();
-    this.panel.setService(service, serverNowMs / 1000);
-    this.actions.setRecording(service.recording.state);
+    const serverNowMs = clock.isKnown ? clock.serverNow(this.statusMs) : Date.now();
+    this.panel.setStatus(status, serverNowMs / 1000);
+    this.latency.take(STAGES.map((name) => ({name, ...status[name]})));
+    this.actions.setRecording(status.recording.state);
   }
 
   takeNotice(notice) {
@@ -142,9 +133,9 @@ export class Live {
       isOpen: this.socket.isOpen,
       sinceClosedS: since(this.socket.closedMs),
       silence: this.notice.silence,
-      serviceAgeS: since(this.serviceMs),
+      serviceAgeS: since(this.statusMs),
       poseAgeS: since(this.poseMs),
-      complaints: this.service?.complaints ?? [],
+      complaints: this.status?.complaints ?? [],
     }));
     this.panel.setState(this.state() || (this.poseMs === null ? 'waiting' : 'unknown'));
     this.panel.setFit(this.people.newestBody());

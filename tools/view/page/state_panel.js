@@ -4,7 +4,33 @@ import {byId, make, setText} from './dom.js';
 import {doubtText} from './doubt.js';
 import {ageText, bytesText, clockText, fixed, partText, withoutNumbers} from './text.js';
 
-const LEAST_DISK_BYTES = 5e9;
+/** What the figures show of a status as `mocap status --json` has it. */
+const FIGURES = {
+  'rate': (status) => fixed(status.sets_per_second, 1),
+  'nominal': (status) => `of ${fixed(status.fps_nominal, 0)}`,
+  'dropped': (status) => status.sets_dropped,
+  'partial': (status) => status.sets_partial,
+  'spread': (status) => `${fixed(status.spread.p50_ms, 2)} ms`,
+  'camera-count': ({cameras}) =>
+      `${cameras.filter(({state}) => state === 'streaming').length} of ${cameras.length}`,
+  'disk': (status) => bytesText(status.bytes_free),
+  'calibration': (status, nowS) => madeText(status.calibration, nowS),
+  'background': (status, nowS) => madeText(status.background, nowS),
+  'up': (status) => ageText(status.up_seconds),
+  'version': (status) => `mocapd ${status.version}`,
+  'recording-text': ({recording}) => recordingText(recording),
+};
+
+function madeText({made_s: madeS}, nowS) {
+  return madeS > 0 ? `${ageText(nowS - madeS)} old` : 'age unknown';
+}
+
+function recordingText({state, folder, seconds, dropped}) {
+  const name = folder.split('/').filter((part) => part !== '').at(-1) ?? '';
+  const words = {running: 'recording', complete: 'recorded', failed: 'recording failed'}[state];
+  const lost = dropped > 0 ? `, ${dropped} frames dropped` : '';
+  return `${words ?? ''} ${name} · ${clockText(seconds)}${lost}`;
+}
 
 /** The main message: {tone: 'ok' | 'warn' | 'bad' | 'muted', text, lines}. Pure, for tests. */
 export function verdictOf({isOpen, sinceClosedS, silence, serviceAgeS, poseAgeS, complaints}) {
@@ -92,13 +118,13 @@ export class StatePanel {
     byId('no-pictures').hidden = pictures === '';
   }
 
-  setStatus(status) {
-    setText(byId('rate'), fixed(status.sets_per_second, 1));
-    setText(byId('dropped'), status.sets_dropped);
-    setText(byId('partial'), status.sets_partial);
-    setText(byId('spread'), `${fixed(status.spread_p50_ms, 2)} ms`);
-    const streaming = status.cameras.filter((camera) => camera.state === 'streaming').length;
-    setText(byId('camera-count'), `${streaming} of ${status.cameras.length}`);
+  setStatus(status, serverNowS) {
+    for (const [id, text] of Object.entries(FIGURES)) setText(byId(id), text(status, serverNowS));
+    byId('disk').dataset.tone = status.poor.includes('bytes_free') ? 'warn' : '';
+    byId('calibration').title = status.calibration.where;
+    byId('background').title = status.background.where;
+    byId('recording').hidden = status.recording.state === 'none';
+    byId('recording').dataset.state = status.recording.state;
   }
 
   /** @param pose the newest pose; null if nobody is present. */
@@ -116,30 +142,6 @@ export class StatePanel {
     while (list.children.length > rows.length) list.lastChild.remove();
     while (list.children.length < rows.length) list.append(makePersonRow());
     rows.forEach((row, i) => tellPerson(list.children[i], row));
-  }
-
-  setService(service, serverNowS) {
-    const age = (madeS) => madeS > 0 ? `${ageText(serverNowS - madeS)} old` : 'age unknown';
-    setText(byId('nominal'), `of ${fixed(service.fps_nominal, 0)}`);
-    setText(byId('disk'), bytesText(service.bytes_free));
-    byId('disk').dataset.tone = service.bytes_free < LEAST_DISK_BYTES ? 'warn' : '';
-    setText(byId('calibration'), age(service.calibration_made_s));
-    byId('calibration').title = service.calibration;
-    setText(byId('background'), age(service.background_made_s));
-    byId('background').title = service.background;
-    setText(byId('up'), ageText(service.up_seconds));
-    setText(byId('version'), `mocapd ${service.version}`);
-    this.setRecording(service.recording);
-  }
-
-  setRecording({state, folder, seconds, dropped}) {
-    const block = byId('recording');
-    block.hidden = state === 'none';
-    block.dataset.state = state;
-    const name = folder.split('/').filter((part) => part !== '').at(-1) ?? '';
-    const words = {running: 'recording', complete: 'recorded', failed: 'recording failed'}[state];
-    const lost = dropped > 0 ? `, ${dropped} frames dropped` : '';
-    setText(byId('recording-text'), `${words ?? ''} ${name} · ${clockText(seconds)}${lost}`);
   }
 
   setBody(body) {

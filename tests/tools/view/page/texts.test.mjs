@@ -49,12 +49,11 @@ test('a number that changes is nothing new to say', () => {
 });
 
 test('a camera whose silhouettes lie beside the hull is not trusted', () => {
-  const camera = {state: 'streaming', trust: 0.8, off_px: 0.6};
+  const camera = {state: 'streaming', poor: []};
   assert.equal(lookOfCamera(camera), 'streaming');
-  assert.equal(lookOfCamera({...camera, trust: null, off_px: null}), 'streaming');
-  assert.equal(lookOfCamera({...camera, off_px: 6}), 'not trusted');
-  assert.equal(lookOfCamera({...camera, trust: 0.3}), 'not trusted');
-  assert.equal(lookOfCamera({...camera, off_px: 6, state: 'lost'}), 'lost');
+  assert.equal(lookOfCamera({...camera, poor: ['off_px']}), 'not trusted');
+  assert.equal(lookOfCamera({...camera, poor: ['trust']}), 'not trusted');
+  assert.equal(lookOfCamera({...camera, poor: ['off_px'], state: 'lost'}), 'lost');
 });
 
 test('a camera tells what is known of it', () => {
