@@ -218,7 +218,7 @@ std::string Page(const Hearing& hearing, const std::string& url) {
   const ServiceReport& report = hearing.report();
   if (report.people.size() > 1)
     page += '\n' + TableOf(PersonFields(), PeopleOf(report), Shown::kInWatch);
-  if (report.told) page += VerdictText(report);
+  if (report.told) page += ConclusionText(report);
   if (report.recording.state == RecordingStatus::State::kRunning) page += RunningText(report);
   if (hearing.HasStatus() && report.told)
     page += '\n' + CamerasText(hearing) + '\n' + SetsText(report);

@@ -109,7 +109,7 @@ std::string ReportLine(const ServiceReport& report) {
   return line;
 }
 
-std::string VerdictText(const ServiceReport& report) {
+std::string ConclusionText(const ServiceReport& report) {
   std::string text;
   for (const std::string& complaint : Diagnostics(report))
     text += "! " + Printable(complaint) + '\n';
@@ -131,7 +131,7 @@ std::string SetsText(const ServiceReport& report) {
 }
 
 std::string ReportText(const ServiceReport& report) {
-  std::string text = VerdictText(report) + '\n';
+  std::string text = ConclusionText(report) + '\n';
   text += Line("mocapd",
                fmt::format("{}, up {}; {}", report.version, Duration(report.up_ns), report.studio));
   text += report.node.empty() ? TrackingText(report) : SendingText(report);

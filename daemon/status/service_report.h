@@ -82,7 +82,7 @@ std::string ReportLine(const ServiceReport& report);
 /// A page of text.
 std::string ReportText(const ServiceReport& report);
 /// Whether all is good, and otherwise each diagnostic on a line.
-std::string VerdictText(const ServiceReport& report);
+std::string ConclusionText(const ServiceReport& report);
 /// How many sets there are, and how long each stage takes.
 std::string SetsText(const ServiceReport& report);
 /// The background's origin and age, and the present light.

@@ -6,7 +6,7 @@ import {byId, setText} from './dom.js';
 import {LatencyPlot, STAGES} from './latency_plot.js';
 import {OLD_MS, People} from './people.js';
 import {Socket} from './socket.js';
-import {StatePanel, verdictOf} from './state_panel.js';
+import {StatePanel, conclusionOf} from './state_panel.js';
 import {ageText, fixed} from './text.js';
 import {decodeAll, decodePicture, decodePose, decodeVoxels, kindOf, PICTURE, POSE, VOXELS} from './wire.js';
 
@@ -129,7 +129,7 @@ export class Live {
 
   tell(nowMs, fps) {
     const since = (ms) => ms === null ? null : (nowMs - ms) / 1000;
-    this.panel.setVerdict(verdictOf({
+    this.panel.setConclusion(conclusionOf({
       isOpen: this.socket.isOpen,
       sinceClosedS: since(this.socket.closedMs),
       silence: this.notice.silence,

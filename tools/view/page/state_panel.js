@@ -33,7 +33,7 @@ function recordingText({state, folder, seconds, dropped}) {
 }
 
 /** The main message: {tone: 'ok' | 'warn' | 'bad' | 'muted', text, lines}. Pure, for tests. */
-export function verdictOf({isOpen, sinceClosedS, silence, serviceAgeS, poseAgeS, complaints}) {
+export function conclusionOf({isOpen, sinceClosedS, silence, serviceAgeS, poseAgeS, complaints}) {
   if (!isOpen) {
     const since = sinceClosedS >= 2 ? ` for ${ageText(sinceClosedS)}` : '';
     return {tone: 'bad', text: `No connection to mocap view${since}. Retrying.`, lines: []};
@@ -90,11 +90,11 @@ export class StatePanel {
     byId('state').dataset.state = state;
   }
 
-  setVerdict({tone, text, lines}) {
-    const block = byId('verdict');
+  setConclusion({tone, text, lines}) {
+    const block = byId('conclusion');
     block.dataset.tone = tone;
-    setText(byId('verdict-text'), text);
-    byId('verdict-text').hidden = text === '';
+    setText(byId('conclusion-text'), text);
+    byId('conclusion-text').hidden = text === '';
     const list = byId('complaints');
     while (list.children.length > lines.length) list.lastChild.remove();
     lines.forEach((line, i) => {

@@ -3,7 +3,7 @@ import test from 'node:test';
 
 import {subjectNames} from '../../../../tools/view/page/actions.js';
 import {factsOf, lookOfCamera} from '../../../../tools/view/page/camera_text.js';
-import {verdictOf} from '../../../../tools/view/page/state_panel.js';
+import {conclusionOf} from '../../../../tools/view/page/state_panel.js';
 import {ageText, bytesText, clockText, partText, withoutNumbers} from '../../../../tools/view/page/text.js';
 
 const GOOD = {
@@ -16,17 +16,17 @@ const GOOD = {
 };
 
 test('all is good only when nothing is complained of, all is fresh, and the line is open', () => {
-  assert.equal(verdictOf(GOOD).text, 'all is good');
+  assert.equal(conclusionOf(GOOD).text, 'all is good');
   for (const flaw
            of [{isOpen: false}, {silence: 'nothing is heard'}, {serviceAgeS: null},
                {serviceAgeS: 4}, {poseAgeS: null}, {poseAgeS: 2}, {complaints: ['cam1 is lost']}]) {
-    assert.notEqual(verdictOf({...GOOD, ...flaw}).tone, 'ok', JSON.stringify(flaw));
+    assert.notEqual(conclusionOf({...GOOD, ...flaw}).tone, 'ok', JSON.stringify(flaw));
   }
 });
 
 test('complaints are told word for word', () => {
   const complaints = ['cam3 is lost: check its cable and power', '<b>cam4</b>'];
-  assert.deepEqual(verdictOf({...GOOD, complaints}).lines, complaints);
+  assert.deepEqual(conclusionOf({...GOOD, complaints}).lines, complaints);
 });
 
 test('ages are in the unit that fits', () => {
