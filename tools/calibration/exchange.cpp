@@ -1,89 +1,86 @@
 #include "tools/calibration/exchange.h"
 
 #include <fmt/format.h>
-#include <stdlib.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 
 #include "config/load_config.h"
 #include "core/errors.h"
+#include "drivers/printable_text.h"
 #include "drivers/quoted.h"
-#include "drivers/take/calibration_file.h"
+#include "drivers/take/input_file.h"
+#include "drivers/take/take_layout.h"
 #include "drivers/take/text_file.h"
+#include "tools/calibration/foreign_program.h"
+#include "tools/calibration/lens_conversion.h"
 
 namespace mocap {
 namespace {
 
 namespace fs = std::filesystem;
 
+constexpr std::size_t kLargestFile = 32 << 20;
 // Larger than the residual of fitting another lens model.
 constexpr double kWorstLens_px = 0.5;
 constexpr double kWorstTurn = 1e-6;
 constexpr double kWorstShift_mm = 0.01;
 
-/// A temporary folder, deleted with the object.
-class ScratchFolder {
- public:
-  ScratchFolder() {
-    std::string path = (fs::temp_directory_path() / "mocap-XXXXXX").string();
-    if (mkdtemp(path.data()) == nullptr)
-      throw std::runtime_error(path + ": cannot be created; expected a folder for temporary files");
-    path_ = path;
+ForeignProgram ProgramOf(const std::string& format, const ImportOptions& options) {
+  const auto place = std::ranges::find(ForeignPrograms(), format, &ForeignProgram::name);
+  if (place == ForeignPrograms().end()) throw SetupError(Quoted(format) + ": is not a format");
+  ForeignProgram program = *place;
+  if (program.has_own_unit) program.unit_mm = options.unit_mm;
+  return program;
+}
+
+bool HasOneFileEach(const ForeignProgram& program) {
+  return !program.files.empty() && program.files[0].starts_with('.');
+}
+
+// Files of a folder with one for each camera, sorted by name, or a single file.
+std::vector<fs::path> CameraFiles(const fs::path& in, const std::vector<std::string>& extensions) {
+  std::error_code error;
+  if (!fs::is_directory(in, error)) return {in};
+  std::vector<fs::path> files;
+  fs::directory_iterator entry(in, error);
+  if (error) throw SetupError(Printable(in.string()) + ": cannot be listed: " + error.message());
+  for (; entry != fs::directory_iterator() && !error; entry.increment(error)) {
+    const std::string extension = Lowered(entry->path().extension().string());
+    if (std::ranges::count(extensions, extension) > 0 && !IsHidden(entry->path()))
+      files.push_back(entry->path());
   }
-  ScratchFolder(const ScratchFolder&) = delete;
-  ScratchFolder& operator=(const ScratchFolder&) = delete;
-  ~ScratchFolder() {
-    std::error_code error;
-    fs::remove_all(path_, error);
+  std::sort(files.begin(), files.end());
+  if (files.empty())
+    throw SetupError(fmt::format("{}: contains no file NAME{}; expected one for each camera",
+                                 Printable(in.string()), fmt::join(extensions, " or ")));
+  return files;
+}
+
+TextFiles ReadFiles(const ForeignProgram& program, const fs::path& in) {
+  std::vector<fs::path> paths = {in};
+  if (HasOneFileEach(program)) {
+    paths = CameraFiles(in, program.files);
+  } else if (!program.files.empty()) {
+    paths.clear();
+    for (const std::string& name : program.files) paths.push_back(in / name);
   }
-
-  const fs::path& path() const { return path_; }
-
- private:
-  fs::path path_;
-};
-
-std::vector<ForeignCamera> ReadForeign(const std::string& format, const fs::path& in,
-                                       double unit_mm) {
-  if (format == "pose2sim") return ReadPose2Sim(in, unit_mm);
-  if (format == "easymocap") return ReadEasyMocap(in / "intri.yml", in / "extri.yml");
-  if (format == "opencv" || format == "ros") return ReadOpenCv(in);
-  if (format == "kalibr") return ReadKalibr(in);
-  if (format == "willson") return ReadWillson(in);
-  if (format == "qualisys") return ReadQualisys(in);
-  if (format == "vicon") return ReadVicon(in);
-  throw SetupError("--from " + Quoted(format) + ": is not a format that can be read");
+  TextFiles files;
+  for (const fs::path& path : paths)
+    files.push_back({Printable(path.string()), ReadWholeFile(path, "a calibration", kLargestFile)});
+  return files;
 }
 
-std::vector<TextFile> TextsOf(const std::string& format, const fs::path& out,
-                              const Cameras& cameras, double unit_mm) {
-  if (format == "pose2sim") return Pose2SimText(cameras, unit_mm);
-  if (format == "easymocap") return EasyMocapText(cameras);
-  if (format == "opencv") return OpenCvText(cameras);
-  if (format == "willson") return WillsonText(cameras);
-  if (format == "qualisys") return QualisysText(cameras);
-  if (format == "vicon") return ViconText(cameras);
-  if (format == "mocap") return {{"", CalibrationText(out, cameras)}};
-  throw SetupError("--to " + Quoted(format) + ": is not a format that can be written");
-}
-
-bool IsFolderFormat(const std::string& format) {
-  return format == "easymocap" || format == "opencv" || format == "willson";
-}
-
-Cameras ReadAgain(const std::string& format, const fs::path& written, const Cameras& cameras,
-                  double unit_mm) {
-  if (format == "mocap") return LoadCalibration(written);
-  std::vector<ForeignCamera> found = ReadForeign(format, written, unit_mm);
+Cameras ReadAgain(const ForeignProgram& program, const TextFiles& files, const Cameras& cameras) {
+  std::vector<ForeignCamera> found = program.read(files, program);
   // Data that the format does not contain.
   for (ForeignCamera& camera : found) {
-    const auto same = std::find_if(cameras.begin(), cameras.end(),
-                                   [&](const auto& c) { return c.name == camera.name; });
+    const auto same = std::ranges::find(cameras, camera.name, &CameraCalibration::name);
     if (camera.size_px.values.size() < 2 && same != cameras.end())
       camera.size_px.values = {static_cast<double>(same->width_px),
                                static_cast<double>(same->height_px)};
   }
-  return CheckForeignCameras(written.string(), found, {}).cameras;
+  return CheckForeignCameras(program.name, found, {}).cameras;
 }
 
 void RequireSame(const std::string& format, const Cameras& written, const Cameras& read) {
@@ -110,15 +107,17 @@ void RequireSame(const std::string& format, const Cameras& written, const Camera
 
 }  // namespace
 
-const std::vector<std::string>& ImportFormats() {
-  static const std::vector<std::string> formats = {
-      "mocap", "pose2sim", "easymocap", "opencv", "ros", "kalibr", "willson", "qualisys", "vicon"};
+std::vector<std::string> ImportFormats() {
+  std::vector<std::string> formats = {"mocap"};
+  for (const ForeignProgram& program : ForeignPrograms()) formats.push_back(program.name);
   return formats;
 }
 
-const std::vector<std::string>& ExportFormats() {
-  static const std::vector<std::string> formats = {"mocap",   "pose2sim", "easymocap", "opencv",
-                                                   "willson", "qualisys", "vicon"};
+std::vector<std::string> ExportFormats() {
+  std::vector<std::string> formats = {"mocap"};
+  for (const ForeignProgram& program : ForeignPrograms()) {
+    if (program.write != nullptr) formats.push_back(program.name);
+  }
   return formats;
 }
 
@@ -126,12 +125,12 @@ Imported ImportCameras(const std::string& format, const fs::path& in,
                        const ImportOptions& options) {
   if (format == "mocap") return {LoadCalibration(in), false, {}};
   const std::string source = Printable(in.string());
-  const std::vector<ForeignCamera> found = ReadForeign(format, in, options.unit_mm);
-  // OpenCV's own calibration and ROS write intrinsics only.
-  const bool are_lenses = (format == "opencv" || format == "ros") &&
-                          std::none_of(found.begin(), found.end(), [](const ForeignCamera& camera) {
-                            return camera.rotation || camera.translation_mm;
-                          });
+  const ForeignProgram program = ProgramOf(format, options);
+  const std::vector<ForeignCamera> found = program.read(ReadFiles(program, in), program);
+  const bool are_lenses =
+      program.may_lack_poses && std::ranges::none_of(found, [](const ForeignCamera& camera) {
+        return camera.rotation || camera.translation_mm;
+      });
   if (!are_lenses) return CheckForeignCameras(source, found, options);
   ImportOptions lenses = options;
   lenses.lenses_alone = true;
@@ -145,29 +144,31 @@ Imported ImportCameras(const std::string& format, const fs::path& in,
 
 void ExportCameras(const std::string& format, const fs::path& out, const Cameras& cameras,
                    const ImportOptions& options) {
+  // A name becomes part of file names and of texts, whose syntax it must not break.
+  const std::string own_text = CalibrationText(out, cameras);
+  if (format == "mocap") {
+    RequireWritable(out);
+    RequireSame(format, cameras, ParseCalibration(own_text, out.string()));
+    return ReplaceText(out, own_text);
+  }
   for (const CameraCalibration& camera : cameras) {
-    if (camera.head && format != "mocap")
+    if (camera.head)
       throw SetupError("--to " + format + ": does not support pan-tilt heads, and " + camera.name +
                        " has one; use --to mocap");
   }
-  // A name becomes part of file names and of texts, whose syntax it must not break.
-  static_cast<void>(CalibrationText(out, cameras));
-  if (!IsFolderFormat(format)) RequireWritable(out);
-  const std::vector<TextFile> files = TextsOf(format, out, cameras, options.unit_mm);
-  const ScratchFolder scratch;
-  for (const TextFile& file : files)
-    WriteText(scratch.path() / (file.name.empty() ? "calibration" : file.name), file.text);
-  const fs::path written = IsFolderFormat(format) ? scratch.path() : scratch.path() / "calibration";
+  const ForeignProgram program = ProgramOf(format, options);
+  if (program.files.empty()) RequireWritable(out);
+  const TextFiles files = program.write(cameras, program);
   Cameras read;
   try {
-    read = ReadAgain(format, written, cameras, options.unit_mm);
+    read = ReadAgain(program, files, cameras);
   } catch (const SetupError& error) {
     throw SetupError(
         "--to " + format +
         ": cannot hold these cameras: the output could not be read again: " + error.what());
   }
   RequireSame(format, cameras, read);
-  if (IsFolderFormat(format)) MakeFolder(out);
+  if (!program.files.empty()) MakeFolder(out);
   for (const TextFile& file : files)
     ReplaceText(file.name.empty() ? out : out / file.name, file.text);
 }

@@ -1,10 +1,9 @@
 #include "tools/calibration/foreign_camera.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
-#include <cctype>
-#include <charconv>
 #include <cmath>
 #include <set>
 
@@ -13,6 +12,7 @@
 #include "drivers/quoted.h"
 #include "drivers/take/calibration_file.h"
 #include "drivers/take/take_layout.h"
+#include "tools/calibration/lens_conversion.h"
 #include "tools/calibration/lens_parameters.h"
 
 namespace mocap {
@@ -20,25 +20,18 @@ namespace {
 
 // Some programs print rotations with few digits.
 constexpr double kRotationTolerance = 1e-3;
+constexpr double kQuaternionTolerance = 1e-2;
 constexpr double kMostTurns_rad = 100;
 constexpr double kFarthest_mm = 1e6;
 constexpr double kNoSkew = 1e-9;
 constexpr double kLongestFocal_px = 1e6, kLargestCoefficient = 1e6;
 // A studio in metres, read as millimetres, is smaller than a hand.
 constexpr double kSmallestStudio_mm = 50;
-// Slightly below tan of 85 degrees, the limit of lenses that do not fold.
-constexpr double kWidestField = 11.4;
 
 using RowMajor3 = Eigen::Matrix<double, 3, 3, Eigen::RowMajor>;
 
 [[noreturn]] void Fail(const ForeignNumbers& numbers, const std::string& what) {
   throw SetupError(numbers.where + " " + what);
-}
-
-void RequireFinite(const ForeignNumbers& numbers) {
-  for (const double value : numbers.values) {
-    if (!std::isfinite(value)) Fail(numbers, fmt::format("has {}; expected finite numbers", value));
-  }
 }
 
 void CheckName(const ForeignCamera& found, std::set<std::string>& names) {
@@ -50,37 +43,34 @@ void CheckName(const ForeignCamera& found, std::set<std::string>& names) {
                      "; expected a unique name for each: rename it there");
 }
 
-std::array<int, 2> CheckSize(const ForeignCamera& found, const ImportOptions& options) {
+void CheckSize(const ForeignCamera& found, const ImportOptions& options,
+               CameraCalibration& camera) {
   ForeignNumbers size = found.size_px;
-  RequireFinite(size);
   if (size.values.size() < 2) {
     if (!options.size_px)
       Fail(size, "does not contain the size of the pictures; add --size WIDTHxHEIGHT, in pixels");
     if (size.values.size() == 1 && size.values[0] != (*options.size_px)[0])
       Fail(size, fmt::format("has pictures {} px wide; --size has {}", size.values[0],
                              (*options.size_px)[0]));
-    size.values = {static_cast<double>((*options.size_px)[0]),
-                   static_cast<double>((*options.size_px)[1])};
+    size.values.assign(options.size_px->begin(), options.size_px->end());
   }
   const auto is_side = [](double side) {
     return side >= 1 && side <= kLargestPicture_px && side == std::floor(side);
   };
-  if (size.values.size() != 2 || !is_side(size.values[0]) || !is_side(size.values[1])) {
-    std::string shown;
-    for (const double side : size.values)
-      shown += fmt::format("{}{}", shown.empty() ? "" : " x ", side);
-    Fail(size, "is " + shown.substr(0, 60) +
-                   fmt::format("; expected width and height in whole pixels, from 1 to {}",
-                               kLargestPicture_px));
-  }
-  return {static_cast<int>(size.values[0]), static_cast<int>(size.values[1])};
+  if (size.values.size() != 2 || !std::ranges::all_of(size.values, is_side))
+    Fail(size, fmt::format("is {:.60}; expected width and height in whole pixels, from 1 to {}",
+                           fmt::format("{}", fmt::join(size.values, " x ")), kLargestPicture_px));
+  camera.width_px = static_cast<int>(size.values[0]);
+  camera.height_px = static_cast<int>(size.values[1]);
 }
 
 Matrix3 CheckMatrix(const ForeignNumbers& matrix) {
-  RequireFinite(matrix);
-  if (matrix.values.size() != 9)
-    Fail(matrix, fmt::format("has {} numbers; expected 3 x 3", matrix.values.size()));
-  Matrix3 K = Eigen::Map<const RowMajor3>(matrix.values.data());
+  std::vector<double> n = matrix.values;
+  if (n.size() == 4) n.push_back(0);
+  if (n.size() == 5) n = {n[0], n[4], n[2], 0, n[1], n[3], 0, 0, 1};
+  if (n.size() != 9)
+    Fail(matrix, fmt::format("has {} numbers; expected 3 x 3, or fx fy cx cy", n.size()));
+  Matrix3 K = Eigen::Map<const RowMajor3>(n.data());
   if (std::abs(K(0, 1)) < kNoSkew) K(0, 1) = 0;
   if (K(0, 1) != 0)
     Fail(matrix, fmt::format("has the skew {}; expected a lens without skew", K(0, 1)));
@@ -91,39 +81,9 @@ Matrix3 CheckMatrix(const ForeignNumbers& matrix) {
     Fail(matrix,
          fmt::format("has the focal lengths {} and {}; expected pixels, above 0 and up to {}",
                      K(0, 0), K(1, 1), kLongestFocal_px));
-  if (std::abs(K(0, 2)) > kLongestFocal_px || std::abs(K(1, 2)) > kLongestFocal_px)
+  if (!(K.topRightCorner<2, 1>().norm() <= kLongestFocal_px))
     Fail(matrix, "has its centre far outside any picture");
   return K;
-}
-
-Lens CheckFisheye(const Matrix3& K, const ForeignNumbers& distortion) {
-  FisheyeLens lens{K, {}};
-  if (!distortion.values.empty() && distortion.values.size() != lens.distortion.size())
-    Fail(distortion,
-         fmt::format("has {} numbers; a fisheye has 4: k1 k2 k3 k4", distortion.values.size()));
-  std::copy(distortion.values.begin(), distortion.values.end(), lens.distortion.begin());
-  return lens;
-}
-
-Lens CheckPinhole(const Matrix3& K, const ForeignNumbers& distortion) {
-  const std::vector<double>& k = distortion.values;
-  static const std::set<std::size_t> kCounts = {0, 4, 5, 8, 12, 14};
-  if (!kCounts.contains(k.size()))
-    Fail(distortion,
-         fmt::format("has {} numbers; expected 4, 5 or 8: k1 k2 p1 p2 [k3 [k4 k5 k6]]", k.size()));
-  OpenCvLens lens{K, {}};
-  const std::size_t kept = std::min(k.size(), lens.distortion.size());
-  for (std::size_t i = kept; i < k.size(); ++i) {
-    if (k[i] != 0)
-      Fail(distortion, fmt::format("has {} {}, of OpenCV's {} model, which is not supported; "
-                                   "calibrate with k1 to k6, p1 and p2 only",
-                                   i < 12    ? fmt::format("s{}", i - 7)
-                                   : i == 12 ? "tau x"
-                                             : "tau y",
-                                   k[i], i < 12 ? "thin prism" : "tilted sensor"));
-  }
-  std::copy_n(k.begin(), kept, lens.distortion.begin());
-  return lens;
 }
 
 Lens CheckLens(const ForeignCamera& found) {
@@ -135,22 +95,53 @@ Lens CheckLens(const ForeignCamera& found) {
     return *found.lens;
   }
   const Matrix3 K = CheckMatrix(found.matrix);
-  RequireFinite(found.distortion);
-  for (const double k : found.distortion.values) {
-    if (std::abs(k) > kLargestCoefficient)
-      Fail(found.distortion, fmt::format("has {}, which no lens has", k));
+  const std::vector<double>& k = found.distortion.values;
+  for (const double coefficient : k) {
+    if (!(std::abs(coefficient) <= kLargestCoefficient))
+      Fail(found.distortion, fmt::format("has {}, which no lens has", coefficient));
   }
-  return found.is_fisheye ? CheckFisheye(K, found.distortion) : CheckPinhole(K, found.distortion);
+  const std::string count = fmt::format("has {} numbers; ", k.size());
+  if (found.is_fisheye) {
+    FisheyeLens lens{K, {}};
+    if (!k.empty() && k.size() != 4) Fail(found.distortion, count + "a fisheye has 4: k1 k2 k3 k4");
+    std::ranges::copy(k, lens.distortion.begin());
+    return lens;
+  }
+  static const std::set<std::size_t> kCounts = {0, 4, 5, 8, 12, 14};
+  if (!kCounts.contains(k.size()))
+    Fail(found.distortion, count + "expected 4, 5 or 8: k1 k2 p1 p2 [k3 [k4 k5 k6]]");
+  OpenCvLens lens{K, {}};
+  for (std::size_t i = 0; i < k.size(); ++i) {
+    if (i < lens.distortion.size()) {
+      lens.distortion[i] = k[i];
+    } else if (k[i] != 0) {
+      Fail(found.distortion,
+           fmt::format("has {}, of OpenCV's {} model, which is not supported; calibrate with k1 to "
+                       "k6, p1 and p2 only",
+                       k[i], i < 12 ? "thin prism" : "tilted sensor"));
+    }
+  }
+  return lens;
 }
 
-Matrix3 CheckRotation(const ForeignNumbers& rotation) {
-  RequireFinite(rotation);
+// As printed, often with few digits; only a vector gives an exact rotation.
+Matrix3 CheckRotation(const ForeignCamera& found) {
+  const ForeignNumbers& rotation = *found.rotation;
   const std::vector<double>& n = rotation.values;
   if (n.size() == 3) {
     const Vector3 w(n[0], n[1], n[2]);
     if (!(w.norm() < kMostTurns_rad))
       Fail(rotation, "is not a rotation vector: it turns too far; expected radians");
-    return ExpRotation(w);
+    if (!found.is_euler) return ExpRotation(w);
+    return (Eigen::AngleAxisd(w.z(), Vector3::UnitZ()) *
+            Eigen::AngleAxisd(w.y(), Vector3::UnitY()) * Eigen::AngleAxisd(w.x(), Vector3::UnitX()))
+        .toRotationMatrix();
+  }
+  if (n.size() == 4) {
+    const Eigen::Quaterniond q(n[3], n[0], n[1], n[2]);
+    if (!(std::abs(q.norm() - 1) < kQuaternionTolerance))
+      Fail(rotation, "is not a unit quaternion; expected x y z w");
+    return q.normalized().toRotationMatrix();
   }
   if (n.size() != 9)
     Fail(rotation,
@@ -161,38 +152,7 @@ Matrix3 CheckRotation(const ForeignNumbers& rotation) {
     Fail(rotation, "is not a rotation; expected three rows that are perpendicular unit vectors");
   if (R.determinant() < 0)
     Fail(rotation, "is a reflection; expected a rotation, whose determinant is +1");
-  return NearestRotation(R);
-}
-
-Vector3 CheckTranslation(const ForeignNumbers& translation) {
-  RequireFinite(translation);
-  if (translation.values.size() != 3)
-    Fail(translation, fmt::format("has {} numbers; expected 3", translation.values.size()));
-  const Vector3 t(translation.values[0], translation.values[1], translation.values[2]);
-  if (!(t.norm() <= kFarthest_mm))
-    Fail(translation,
-         fmt::format("is {:.0f} m long; check the unit of length (--unit)", t.norm() / 1000));
-  return t;
-}
-
-// Share of the picture without a direction.
-double HiddenShare(const CameraCalibration& camera) {
-  int hidden = 0;
-  constexpr int kColumns = 16, kRows = 12;
-  for (int j = 0; j <= kRows; ++j) {
-    for (int i = 0; i <= kColumns; ++i) {
-      const Vector2 pixel((camera.width_px - 1.0) * i / kColumns,
-                          (camera.height_px - 1.0) * j / kRows);
-      hidden += !NormalizedFromPixel(camera.lens, pixel).has_value();
-    }
-  }
-  return static_cast<double>(hidden) / ((kColumns + 1) * (kRows + 1));
-}
-
-std::string Lowered(std::string text) {
-  std::transform(text.begin(), text.end(), text.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return text;
+  return R;
 }
 
 // Notes possible but unusual values.
@@ -226,20 +186,19 @@ void DoubtUnit(const std::string& source, const Cameras& cameras, std::vector<st
 
 }  // namespace
 
-double FiniteNumber(std::string_view text, const std::string& where) {
-  std::string_view digits = text;
-  if (digits.starts_with('+')) digits.remove_prefix(1);
-  double number = 0;
-  const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), number);
-  const bool is_number = error == std::errc() && end == digits.data() + digits.size();
-  if (!is_number || digits.empty() || !std::isfinite(number))
-    throw SetupError(where + " is " + Quoted(text) + "; expected a finite number");
-  return number;
-}
-
-double FoldedShare(const CameraCalibration& camera) {
-  const double hidden = HiddenShare(camera);
-  return FieldRadius(camera.lens) < kWidestField ? hidden : 0;
+RigidTransform CheckForeignPose(const ForeignCamera& found) {
+  Matrix3 R = CheckRotation(found);
+  if (found.looks_back) R = kTurnedOver * R;
+  const ForeignNumbers& translation = *found.translation_mm;
+  if (translation.values.size() != 3)
+    Fail(translation, fmt::format("has {} numbers; expected 3", translation.values.size()));
+  Vector3 t = Eigen::Map<const Vector3>(translation.values.data());
+  if (found.is_position) t = -(R * t);
+  if (!(t.norm() <= kFarthest_mm))
+    Fail(translation,
+         fmt::format("is {:.0f} m long; check the unit of length (--unit)", t.norm() / 1000));
+  const bool is_exact = found.rotation->values.size() == 3 && !found.is_euler;
+  return {is_exact ? R : NearestRotation(R), t};
 }
 
 Imported CheckForeignCameras(const std::string& source, const std::vector<ForeignCamera>& found,
@@ -256,9 +215,7 @@ Imported CheckForeignCameras(const std::string& source, const std::vector<Foreig
     }
     CameraCalibration camera;
     camera.name = foreign.name;
-    const auto [width_px, height_px] = CheckSize(foreign, options);
-    camera.width_px = width_px;
-    camera.height_px = height_px;
+    CheckSize(foreign, options, camera);
     camera.lens = CheckLens(foreign);
     if (HiddenShare(camera) == 1)
       throw SetupError(foreign.where + ": " + foreign.name +
@@ -270,8 +227,7 @@ Imported CheckForeignCameras(const std::string& source, const std::vector<Foreig
           (foreign.rotation ? "rotation and no translation" : "translation and no rotation") +
           "; expected both or neither");
     if (foreign.rotation) {
-      camera.X_CW.R = CheckRotation(*foreign.rotation);
-      camera.X_CW.p = CheckTranslation(*foreign.translation_mm);
+      camera.X_CW = CheckForeignPose(foreign);
     } else if (!options.lenses_alone) {
       no_pose.push_back(foreign.name);
       continue;

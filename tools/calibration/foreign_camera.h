@@ -1,23 +1,20 @@
-// Camera data of other programs' files before validation, and the one check that all of it passes.
+// A camera of another program's file, and the one check that all of them pass.
 #pragma once
 
 #include <array>
 #include <optional>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include "core/reconstruction/camera/camera_model.h"
+#include "tools/calibration/foreign_file.h"
 
 namespace mocap {
 
 using Cameras = std::vector<CameraCalibration>;
 
-/// Numbers with their place: "file:line: key", for messages.
-struct ForeignNumbers {
-  std::string where;
-  std::vector<double> values;
-};
+/// Turns the axes of a camera that looks along its negative z, with y up, to ours, and back.
+inline const Matrix3 kTurnedOver = Vector3(1, -1, -1).asDiagonal();
 
 /// One camera, as in a file.
 struct ForeignCamera {
@@ -27,12 +24,16 @@ struct ForeignCamera {
   ForeignNumbers size_px;
   bool has_lens = true;  ///< If false, matrix and distortion are meaningless.
   bool is_fisheye = false;
-  ForeignNumbers matrix;      ///< Row-major.
+  ForeignNumbers matrix;      ///< Row-major; or fx, fy, cx, cy and perhaps skew.
   ForeignNumbers distortion;  ///< OpenCV's: none, 4, 5, 8, 12 or 14; a fisheye's: none or 4.
   std::optional<Lens> lens;   ///< In place of matrix and distortion.
-  /// Rotation vector or row-major matrix, world to camera; forms a pose with the translation.
+  /// World to camera: rotation vector, quaternion x y z w or row-major matrix; forms a pose with
+  /// the translation.
   std::optional<ForeignNumbers> rotation;
   std::optional<ForeignNumbers> translation_mm;
+  bool is_euler = false;     ///< The rotation is Rz Ry Rx, by the angles x y z.
+  bool is_position = false;  ///< The translation is the lens's position in the world.
+  bool looks_back = false;   ///< The camera looks along its negative z, with y up.
 };
 
 /// Values given by the user for incomplete files.
@@ -48,9 +49,6 @@ struct Imported {
   std::vector<std::string> notes;  ///< Remarks for people, one line each.
 };
 
-/// Parses a number. @throws SetupError  beginning with `where`, when it is not a finite number.
-double FiniteNumber(std::string_view text, const std::string& where);
-
 /// Validates a file's data: names are valid and unique, pictures have a size, lenses have a number
 /// of coefficients that OpenCV knows and are supported, rotations are rotations. Nothing is
 /// invented. Cameras without a pose are omitted and listed in the notes.
@@ -58,6 +56,9 @@ double FiniteNumber(std::string_view text, const std::string& where);
 /// @throws SetupError  naming file and key, what was found and what was expected.
 Imported CheckForeignCameras(const std::string& source, const std::vector<ForeignCamera>& found,
                              const ImportOptions& options);
+
+/// Validates the pose of a camera that has one. @throws SetupError  as above.
+RigidTransform CheckForeignPose(const ForeignCamera& camera);
 
 /// Returns the share of the picture, from 0 to 1, that has no direction because the lens's radius
 /// folds. Pixels outside a fisheye's field do not count.

@@ -1,16 +1,20 @@
+#include "tools/calibration/lens_conversion.h"
+
 #include <fmt/format.h>
 
 #include <cmath>
 
 #include "core/calibration/levenberg_marquardt.h"
 #include "core/errors.h"
-#include "tools/calibration/exchange.h"
 #include "tools/calibration/lens_parameters.h"
 
 namespace mocap {
 namespace {
 
 constexpr double kWorst_px = 0.25;
+// Slightly below tan of 85 degrees, the limit of lenses that do not fold.
+constexpr double kWidestField = 11.4;
+constexpr int kColumns = 16, kRows = 12;
 
 /// Directions over the whole picture, and their pixels.
 struct Samples {
@@ -19,7 +23,6 @@ struct Samples {
 
 Samples SamplePicture(const CameraCalibration& camera) {
   Samples samples;
-  constexpr int kColumns = 16, kRows = 12;
   for (int j = 0; j <= kRows; ++j) {
     for (int i = 0; i <= kColumns; ++i) {
       const Vector2 pixel((camera.width_px - 1.0) * i / kColumns,
@@ -78,6 +81,15 @@ OpenCvLens AsFiveCoefficients(const CameraCalibration& camera, const std::string
                      "them; " + format +
                      " supports five: use mocap, pose2sim, opencv or easymocap");
   return lens;
+}
+
+double HiddenShare(const CameraCalibration& camera) {
+  return 1 -
+         static_cast<double>(SamplePicture(camera).pixels.size()) / ((kColumns + 1) * (kRows + 1));
+}
+
+double FoldedShare(const CameraCalibration& camera) {
+  return FieldRadius(camera.lens) < kWidestField ? HiddenShare(camera) : 0;
 }
 
 double LensDifferencePx(const CameraCalibration& a, const Lens& b) {

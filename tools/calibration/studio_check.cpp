@@ -12,7 +12,7 @@
 #include "drivers/nearest_name.h"
 #include "drivers/quoted.h"
 #include "drivers/take/calibration_file.h"
-#include "tools/calibration/foreign_camera.h"
+#include "tools/calibration/lens_conversion.h"
 #include "tools/calibration/lens_parameters.h"
 
 namespace mocap {

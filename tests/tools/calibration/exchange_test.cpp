@@ -9,6 +9,7 @@
 #include "drivers/virtual_studio/room/camera_rig.h"
 #include "tests/support/setup_error.h"
 #include "tests/support/temporary_folder.h"
+#include "tools/calibration/lens_conversion.h"
 
 namespace mocap {
 namespace {
@@ -168,9 +169,11 @@ TEST(ExchangeTest, TsaiLensesBecomeOpenCvLensesThatSeeTheSame) {
 TEST(ExchangeTest, NamesFileAndLineOfWhatIsMissing) {
   const TemporaryFolder folder;
   const std::filesystem::path file = folder.path() / "bad.qca.txt";
-  WriteText(file, "<calibration>\n<camera serial=\"1\">\n<transform x=\"1\" y=\"2\"/>\n</camera>");
+  WriteText(file,
+            "<calibration>\n<camera serial=\"1\">\n<transform x=\"1\" "
+            "y=\"2\"/>\n</camera></calibration>");
   EXPECT_THAT(testing::SetupErrorOf([&] { ImportCameras("qualisys", file); }),
-              HasSubstr("bad.qca.txt:3: transform."));
+              HasSubstr("bad.qca.txt:3: calibration.camera.transform.z is missing"));
   WriteText(file, "[cam]\nmatrix = [[1");
   EXPECT_THAT(testing::SetupErrorOf([&] { ImportCameras("pose2sim", file, {.unit_mm = 1000}); }),
               HasSubstr("bad.qca.txt:2"));

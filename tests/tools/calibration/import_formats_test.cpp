@@ -196,7 +196,7 @@ TEST_F(ImportTest, HostileYamlIsOneLine) {
     return reason;
   };
   EXPECT_THAT(why(std::string(300'000, '[')), HasSubstr("nested"));
-  EXPECT_THAT(why("a: " + std::string(300'000, '{')), HasSubstr("nested"));
+  EXPECT_THAT(why("a: " + std::string(300'000, '{')), HasSubstr("a key that is not text"));
   std::string deep;
   for (int i = 0; i < 3000; ++i) deep += std::string(i, ' ') + "a:\n";
   EXPECT_THAT(why(deep), HasSubstr("nested"));
@@ -214,6 +214,8 @@ TEST_F(ImportTest, HostileYamlIsOneLine) {
   EXPECT_THAT(why("just words"), HasSubstr("no keys"));
   EXPECT_THAT(why("a: 1\na: 2\n"), HasSubstr("twice"));
   EXPECT_THAT(why("a: *b\n"), HasSubstr("*b"));
+  EXPECT_THAT(why("a: &b [*b]\n"), HasSubstr("*b"));
+  EXPECT_THAT(why(std::string(1000, 'k') + ": 1\n"), HasSubstr("too large for a calibration"));
   EXPECT_THAT(why("a: [1, 2"), HasSubstr("not YAML"));
   EXPECT_THAT(why(std::string("\0\1\2", 3)), HasSubstr("not YAML"));
   EXPECT_THAT(why("<?xml version=\"1.0\"?><opencv_storage>"), HasSubstr("cam1.yml"));
@@ -235,14 +237,40 @@ TEST_F(ImportTest, AFileThatIsCutOffAnywhereHasNoPose) {
 }
 
 TEST_F(ImportTest, HostileXmlIsOneLine) {
-  std::string deep = "<opencv_storage>";
-  for (int i = 0; i < 300'000; ++i) deep += "<a>";
-  EXPECT_THAT(Why("opencv", Write("cam1.xml", deep)), HasSubstr("nested"));
-  EXPECT_THAT(Why("opencv", Write("cam1.xml", std::string(300'000, '<'))),
-              HasSubstr("does not end"));
-  EXPECT_THAT(Why("opencv", Write("cam1.xml", std::string(300'000, '<') + ">")),
-              HasSubstr("not XML of OpenCV"));
+  const auto repeated = [](int times, const std::string& text) {
+    std::string all;
+    for (int i = 0; i < times; ++i) all += text;
+    return all;
+  };
+  const auto why = [&](const std::string& text) {
+    const std::string reason = Why("opencv", Write("cam1.xml", text));
+    EXPECT_THAT(reason, HasSubstr("cam1.xml"));
+    EXPECT_EQ(reason.find('\n'), std::string::npos);
+    return reason;
+  };
+  const std::string open = repeated(300'000, "<a>"), closed = repeated(300'000, "</a>");
+  EXPECT_THAT(why("<opencv_storage>" + open + closed + "</opencv_storage>"), HasSubstr("nested"));
+  EXPECT_THAT(why("<opencv_storage>" + open), HasSubstr("not XML"));
+  EXPECT_THAT(why("<opencv_storage>" + repeated(2'000'000, "<a/>") + "</opencv_storage>"),
+              HasSubstr("too large for a calibration"));
+  EXPECT_THAT(why("<opencv_storage>" + repeated(300'000, "<a/>") + "</opencv_storage>"),
+              HasSubstr("too large for a calibration"));
+  EXPECT_THAT(why("<opencv_storage><a>" + repeated(3'000'000, "1 ") + "</a></opencv_storage>"),
+              HasSubstr("too large for a calibration"));
+  EXPECT_THAT(why(std::string(300'000, '<')), HasSubstr("not XML"));
+  EXPECT_THAT(why(std::string(300'000, '<') + ">"), HasSubstr("not XML"));
+  EXPECT_THAT(why("<a>1</a>"), HasSubstr("not XML of OpenCV"));
+  // Entities are not expanded: neither to more text, nor to another file's.
+  const std::string entity =
+      "<!DOCTYPE a [<!ENTITY e SYSTEM \"" + (folder_.path() / "cam1.xml").string() + "\">]>";
+  EXPECT_THAT(why(entity + "<opencv_storage><camera_matrix>&e;</camera_matrix></opencv_storage>"),
+              HasSubstr("camera_matrix is \"&e;\""));
+  EXPECT_THAT(why("<opencv_storage>\n<image_width>1</image_width><image_width>2</image_width>"
+                  "</opencv_storage>"),
+              HasSubstr("cam1.xml:2: opencv_storage.image_width appears twice"));
   EXPECT_THAT(Why("qualisys", Write("a.qca.txt", "")), HasSubstr("not XML"));
+  EXPECT_THAT(Why("qualisys", Write("a.qca.txt", "<calibration>\n<camera serial=\"1\">")),
+              HasSubstr("a.qca.txt:2: is not XML"));
 }
 
 TEST_F(ImportTest, WhatIsNoReadableFileIsSaidAsItIs) {
