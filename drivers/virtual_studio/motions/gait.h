@@ -6,7 +6,7 @@
 #include <functional>
 #include <span>
 
-#include "drivers/virtual_studio/motions/curve.h"
+#include "drivers/virtual_studio/curve.h"
 #include "drivers/virtual_studio/people/skeleton.h"
 
 namespace mocap::simulation {

@@ -1,7 +1,7 @@
 #include <array>
 #include <cmath>
 
-#include "drivers/virtual_studio/motions/curve.h"
+#include "drivers/virtual_studio/curve.h"
 #include "drivers/virtual_studio/motions/gait.h"
 #include "drivers/virtual_studio/motions/motions_in_place.h"
 #include "drivers/virtual_studio/random.h"

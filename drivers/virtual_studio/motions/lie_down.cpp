@@ -4,7 +4,7 @@
 #include <numbers>
 #include <vector>
 
-#include "drivers/virtual_studio/motions/curve.h"
+#include "drivers/virtual_studio/curve.h"
 #include "drivers/virtual_studio/motions/gait.h"
 #include "drivers/virtual_studio/motions/motions_in_place.h"
 #include "drivers/virtual_studio/people/person_mesh.h"

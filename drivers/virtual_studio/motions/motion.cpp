@@ -7,11 +7,11 @@
 #include "core/errors.h"
 #include "drivers/nearest_name.h"
 #include "drivers/quoted.h"
-#include "drivers/virtual_studio/motions/curve.h"
+#include "drivers/virtual_studio/curve.h"
 #include "drivers/virtual_studio/motions/gait.h"
 #include "drivers/virtual_studio/motions/motions_in_place.h"
 #include "drivers/virtual_studio/motions/path_walker.h"
-#include "drivers/virtual_studio/people/wheelchair.h"
+#include "drivers/virtual_studio/motions/roll.h"
 #include "drivers/virtual_studio/random.h"
 #include "drivers/virtual_studio/room/room_plan.h"
 

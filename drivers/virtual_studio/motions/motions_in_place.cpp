@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "drivers/virtual_studio/motions/curve.h"
+#include "drivers/virtual_studio/curve.h"
 #include "drivers/virtual_studio/motions/gait.h"
 #include "drivers/virtual_studio/random.h"
 

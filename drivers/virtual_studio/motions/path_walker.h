@@ -1,7 +1,7 @@
 // Walking along a path on the floor, repeatedly.
 #pragma once
 
-#include "drivers/virtual_studio/motions/curve.h"
+#include "drivers/virtual_studio/curve.h"
 #include "drivers/virtual_studio/motions/gait.h"
 #include "drivers/virtual_studio/motions/motion.h"
 

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "drivers/virtual_studio/motions/curve.h"
+#include "drivers/virtual_studio/curve.h"
 #include "drivers/virtual_studio/people/body_profiles.h"
 #include "drivers/virtual_studio/people/tube_builder.h"
 #include "drivers/virtual_studio/people/wheelchair.h"

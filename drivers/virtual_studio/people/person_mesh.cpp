@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "drivers/virtual_studio/motions/curve.h"
+#include "drivers/virtual_studio/curve.h"
 #include "drivers/virtual_studio/people/body_profiles.h"
 #include "drivers/virtual_studio/people/tube_builder.h"
 #include "drivers/virtual_studio/random.h"

@@ -5,7 +5,7 @@
 #include <numbers>
 
 #include "core/errors.h"
-#include "drivers/virtual_studio/motions/curve.h"
+#include "drivers/virtual_studio/curve.h"
 #include "drivers/virtual_studio/random.h"
 
 namespace mocap::simulation {

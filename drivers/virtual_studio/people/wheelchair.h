@@ -1,10 +1,6 @@
-// A wheelchair, and how a person sits in it and rolls along.
+// A wheelchair that fits a person.
 #pragma once
 
-#include <memory>
-
-#include "drivers/virtual_studio/motions/curve.h"
-#include "drivers/virtual_studio/motions/motion.h"
 #include "drivers/virtual_studio/people/anthropometry.h"
 
 namespace mocap::simulation {
@@ -25,13 +21,5 @@ Wheelchair FitWheelchair(const Anthropometry& body);
 
 /// Adds the chair to the surface of a person, fixed to the pelvis.
 void AddWheelchair(const Anthropometry& body, TubeBuilder& builder);
-
-/// Of the path that people roll along.
-inline constexpr double kRollRadius_mm = 1250;
-
-/// Rolls along a path at constant speed. The hands push the wheels.
-/// @param start_mm  position on the path at time 0.
-std::unique_ptr<const Motion> MakeRoll(const Anthropometry& body, FloorPath path,
-                                       double start_mm = 0);
 
 }  // namespace mocap::simulation

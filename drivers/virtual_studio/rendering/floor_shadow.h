@@ -7,7 +7,7 @@
 
 #include "drivers/virtual_studio/people/person_mesh.h"
 #include "drivers/virtual_studio/rendering/empty_view.h"
-#include "drivers/virtual_studio/room/lamps.h"
+#include "drivers/virtual_studio/rendering/lamps.h"
 
 namespace mocap::simulation {
 

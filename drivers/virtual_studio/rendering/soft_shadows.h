@@ -8,8 +8,8 @@
 #include "core/reconstruction/camera/camera_model.h"
 #include "drivers/virtual_studio/people/person_mesh.h"
 #include "drivers/virtual_studio/rendering/empty_view.h"
+#include "drivers/virtual_studio/rendering/lamps.h"
 #include "drivers/virtual_studio/rendering/pixel_box.h"
-#include "drivers/virtual_studio/room/lamps.h"
 
 namespace mocap::simulation {
 

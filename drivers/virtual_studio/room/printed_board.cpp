@@ -6,7 +6,7 @@
 #include <numbers>
 #include <optional>
 
-#include "drivers/virtual_studio/motions/curve.h"
+#include "drivers/virtual_studio/curve.h"
 #include "drivers/virtual_studio/random.h"
 
 namespace mocap::simulation {

@@ -1,4 +1,4 @@
-#include "drivers/virtual_studio/room/lamps.h"
+#include "drivers/virtual_studio/rendering/lamps.h"
 
 #include <algorithm>
 

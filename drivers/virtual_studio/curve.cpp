@@ -1,4 +1,4 @@
-#include "drivers/virtual_studio/motions/curve.h"
+#include "drivers/virtual_studio/curve.h"
 
 #include <algorithm>
 #include <cmath>
