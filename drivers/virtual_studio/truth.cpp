@@ -4,12 +4,6 @@
 
 namespace mocap {
 
-SimulatedStudioOptions RecordedSimulation() {
-  SimulatedStudioOptions options;
-  options.start_ns = 1'000'000'000'000;
-  return options;
-}
-
 SimulatedTruth::SimulatedTruth(const SimulatedStudioOptions& options)
     : people_(simulation::MakePeople(options)) {}
 SimulatedTruth::~SimulatedTruth() = default;

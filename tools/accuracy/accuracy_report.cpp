@@ -157,8 +157,8 @@ std::string AccuracySweepsHtml(std::span<const AccuracySweep> sweeps) {
     Json names = Json::array(), mean = Json::array(), p95 = Json::array();
     for (const auto& [label, summary] : sweep.steps) {
       names.push_back(label);
-      mean.push_back(Rounded(summary.mpjpe_mm));
-      p95.push_back(Rounded(summary.p95_mm));
+      mean.push_back(NumberOrNull(summary.mpjpe_mm));
+      p95.push_back(NumberOrNull(summary.p95_mm));
     }
     plots.push_back(
         {{"x", {{"label", sweep.what}, {"names", names}, {"first", 0}}},

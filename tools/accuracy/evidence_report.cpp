@@ -54,7 +54,7 @@ Json LinesOf(const std::optional<int>& crf, std::span<const EvidenceSummary> kin
       if (kind.kind.contrast != contrast || kind.kind.crf != crf) continue;
       const auto place = std::ranges::find(kEvidenceCameras, kind.kind.cameras);
       places.push_back(place - kEvidenceCameras.begin());
-      errors.push_back(kind.is_tracked() ? Rounded(kind.error_mm()) : Json());
+      errors.push_back(kind.is_tracked() ? NumberOrNull(kind.error_mm()) : Json());
       if (!kind.is_tracked() || !IsWorseThanWithFewer(kind, kinds)) continue;
       x.push_back(places.back());
       rises.push_back(errors.back());

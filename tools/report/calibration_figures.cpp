@@ -12,7 +12,7 @@ constexpr double kErrorScale = 40;
 constexpr double kConeMm = 1500;
 constexpr int kConeFigure = 3;
 
-Json Metres(double mm) { return Rounded(mm / 1000); }
+Json Metres(double mm) { return NumberOrNull(mm / 1000); }
 
 /// A camera's field of view from above, as a triangle.
 Json ConeOf(const CameraCalibration& camera) {
@@ -39,9 +39,9 @@ Json CoverageFigure(const StudioFit& fit, int camera, const std::vector<CornerEr
   Json cells = Json::array(), x = Json::array(), y = Json::array();
   for (const auto& row : coverage.counts) {
     for (const int count : row) {
-      cells.push_back(count == 0
-                          ? Json(0)
-                          : Rounded(0.08 + 0.35 * std::sqrt(static_cast<double>(count) / most)));
+      cells.push_back(
+          count == 0 ? Json(0)
+                     : NumberOrNull(0.08 + 0.35 * std::sqrt(static_cast<double>(count) / most)));
     }
   }
   for (const CornerError& error : errors) {
@@ -70,7 +70,8 @@ Json RoomPlan(const std::vector<CameraCalibration>& cameras, const SeenVolume& v
   Json cells = Json::array(), series = Json::array();
   Json x = Json::array(), y = Json::array(), names = Json::array();
   for (const int seen : volume.plan)
-    cells.push_back(seen < 2 ? Json(0) : Rounded(0.6 * seen / static_cast<double>(cameras.size())));
+    cells.push_back(seen < 2 ? Json(0)
+                             : NumberOrNull(0.6 * seen / static_cast<double>(cameras.size())));
   for (const CameraCalibration& camera : cameras) {
     const Vector3 p_WC = camera.X_CW.Inverse().p;
     series.push_back(ConeOf(camera));

@@ -28,10 +28,10 @@ Json CalibrationTiles(const StudioFit& fit, const SeenVolume& volume) {
   }
   const std::size_t n = fit.cameras.size();
   const auto seen = [&](const std::string& name, std::size_t count) {
-    return Tile(name, Rounded(volume.cubic_m[count]), 0, "m³", "up to 2.2 m above the floor");
+    return Tile(name, NumberOrNull(volume.cubic_m[count]), 0, "m³", "up to 2.2 m above the floor");
   };
-  Json tiles = {Tile("Reprojection", Rounded(fit.rms_px), 2, "px", "over all cameras"),
-                Tile("At the person", Rounded(worst_mm), 1, "mm",
+  Json tiles = {Tile("Reprojection", NumberOrNull(fit.rms_px), 2, "px", "over all cameras"),
+                Tile("At the person", NumberOrNull(worst_mm), 1, "mm",
                      "the worst camera, " + fit.cameras[worst].name),
                 Tile("Cameras", n, 0, "",
                      fmt::format("{} views of the board", fit.detections.detections.size()))};
@@ -59,11 +59,11 @@ Json CameraTable(const StudioFit& fit) {
     const CameraFit& camera = fit.cameras[c];
     const CameraCalibration& calibration = fit.bundle.cameras[c];
     rows.push_back({camera.name, camera.views, camera.corners,
-                    camera.lens_rms_px > 0 ? Rounded(camera.lens_rms_px) : Json("given"),
-                    Rounded(camera.rms_px),
-                    Rounded(camera.rms_px * MillimetresPerPixel(calibration, middle_W)),
-                    Rounded(100 * camera.coverage.share),
-                    fit.has_floor ? Rounded(calibration.X_CW.Inverse().p.z()) : Json(),
+                    camera.lens_rms_px > 0 ? NumberOrNull(camera.lens_rms_px) : Json("given"),
+                    NumberOrNull(camera.rms_px),
+                    NumberOrNull(camera.rms_px * MillimetresPerPixel(calibration, middle_W)),
+                    NumberOrNull(100 * camera.coverage.share),
+                    fit.has_floor ? NumberOrNull(calibration.X_CW.Inverse().p.z()) : Json(),
                     WasCarried(fit) ? camera.coverage.Hint() : ""});
   }
   return Table({{"camera"},
@@ -81,7 +81,7 @@ Json CameraTable(const StudioFit& fit) {
 Json VolumeTable(const SeenVolume& volume) {
   Json seen = Json::object();
   for (std::size_t n = 2; n < volume.cubic_m.size(); ++n)
-    seen[fmt::format("{} cameras", n)] = Rounded(volume.cubic_m[n]);
+    seen[fmt::format("{} cameras", n)] = NumberOrNull(volume.cubic_m[n]);
   return BarTable("seen by at least", "m³", 1, seen);
 }
 
@@ -105,7 +105,7 @@ Json WorstViews(const StudioFit& fit, const std::vector<CornerError>& errors) {
   Json rows = Json::array();
   for (const View& view : views) {
     const BoardDetection& s = fit.detections.detections[view.detection];
-    rows.push_back({fit.cameras[s.camera].name, s.name, Rounded(view.rms()), view.count});
+    rows.push_back({fit.cameras[s.camera].name, s.name, NumberOrNull(view.rms()), view.count});
   }
   return Table({{"camera"}, {"frame"}, {"px", 2}, {"corners", 0}}, rows);
 }

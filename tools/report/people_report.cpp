@@ -27,11 +27,11 @@ Json Named(const std::string& name, std::size_t person) {
 
 Json FoundPercent(const FollowedTruth& followed) {
   if (followed.covered == 0) return nullptr;
-  return Rounded(100.0 * followed.found_covered / followed.covered);
+  return NumberOrNull(100.0 * followed.found_covered / followed.covered);
 }
 
 Json ErrorOf(const FollowedTruth& followed) {
-  return followed.found > 0 ? Rounded(followed.mean_mm) : Json();
+  return followed.found > 0 ? NumberOrNull(followed.mean_mm) : Json();
 }
 
 Json PeopleTiles(const PeopleEvaluation& evaluation) {
@@ -68,12 +68,12 @@ Json TrackedSection(const PeopleEvaluation& evaluation) {
     const TrackedPerson& person = evaluation.people[i];
     const Evaluation& one = person.evaluation;
     const bool is_scored = one.accuracy && !one.accuracy->frames.empty();
-    rows.push_back({Named(person.name, i), one.result.poses.size(), Rounded(one.mean_residual_mm),
-                    Rounded(one.result.body.stature_mm),
+    rows.push_back({Named(person.name, i), one.result.poses.size(),
+                    NumberOrNull(one.mean_residual_mm), NumberOrNull(one.result.body.stature_mm),
                     person.true_person < 0
                         ? "–"
                         : evaluation.truth[static_cast<std::size_t>(person.true_person)].name,
-                    is_scored ? Rounded(one.accuracy->distance_mm.mean) : Json(),
+                    is_scored ? NumberOrNull(one.accuracy->distance_mm.mean) : Json(),
                     person.phantom_frames, person.duplicate_frames});
   }
   return Table({{"tracked"},

@@ -27,13 +27,13 @@ const PoseRow& RowAt(const Evaluation& evaluation, const SampledMoment& moment) 
 void AddAccuracyTiles(const Accuracy& accuracy, Json& tiles) {
   const DistanceSummary& d = accuracy.distance_mm;
   tiles.push_back(Tile(
-      "Error of 14 points", Rounded(d.mean), 1, "mm",
+      "Error of 14 points", NumberOrNull(d.mean), 1, "mm",
       fmt::format("median {:.1f}, 95 % below {:.1f}, worst {:.0f}", d.median, d.p95, d.worst)));
   tiles.push_back(
-      Tile("Spread", Rounded(accuracy.spread_mm), 1, "mm", "without each point’s own offset"));
-  tiles.push_back(Tile("Error of 8 angles", Rounded(accuracy.mean_angle_rad * kDegreesPerRad), 2,
-                       "°", "mean absolute"));
-  tiles.push_back(Tile("Head found", Rounded(100 * accuracy.head_found_share), 1, "%",
+      Tile("Spread", NumberOrNull(accuracy.spread_mm), 1, "mm", "without each point’s own offset"));
+  tiles.push_back(Tile("Error of 8 angles", NumberOrNull(accuracy.mean_angle_rad * kDegreesPerRad),
+                       2, "°", "mean absolute"));
+  tiles.push_back(Tile("Head found", NumberOrNull(100 * accuracy.head_found_share), 1, "%",
                        fmt::format("within {:.0f} mm", kHeadFoundMm)));
 }
 
@@ -43,22 +43,24 @@ Json TilesOf(const Evaluation& evaluation, const std::vector<CameraOverlap>& ove
   if (evaluation.accuracy && !evaluation.accuracy->frames.empty())
     AddAccuracyTiles(*evaluation.accuracy, tiles);
   tiles.push_back(Tile(
-      "Tracked", Rounded(100 * evaluation.tracked_share), 1, "%",
+      "Tracked", NumberOrNull(100 * evaluation.tracked_share), 1, "%",
       first < 0 ? "never" : fmt::format("from frame {} on", evaluation.result.poses[first].frame)));
   if (const auto& precision = evaluation.precision) {
-    tiles.push_back(Tile("Precision of angles", Rounded(precision->mean_angle_rad * kDegreesPerRad),
-                         2, "°", "against the smoothed curve"));
-    tiles.push_back(Tile("Precision of points", Rounded(precision->mean_point_mm), 1, "mm",
+    tiles.push_back(Tile("Precision of angles",
+                         NumberOrNull(precision->mean_angle_rad * kDegreesPerRad), 2, "°",
+                         "against the smoothed curve"));
+    tiles.push_back(Tile("Precision of points", NumberOrNull(precision->mean_point_mm), 1, "mm",
                          "against the smoothed path"));
   }
   double overlap = 0;
   for (const CameraOverlap& one : overlaps) overlap += 100 * one.mean();
   if (!overlaps.empty()) {
-    tiles.push_back(Tile("Hull overlap", Rounded(overlap / static_cast<double>(overlaps.size())), 1,
-                         "%", "voxels against silhouettes, IoU"));
+    tiles.push_back(Tile("Hull overlap",
+                         NumberOrNull(overlap / static_cast<double>(overlaps.size())), 1, "%",
+                         "voxels against silhouettes, IoU"));
   }
   if (first >= 0) {
-    tiles.push_back(Tile("Stature", Rounded(evaluation.result.body.stature_mm), 0, "mm",
+    tiles.push_back(Tile("Stature", NumberOrNull(evaluation.result.body.stature_mm), 0, "mm",
                          evaluation.truth
                              ? fmt::format("true: {:.0f} mm", evaluation.truth->stature_mm)
                              : "as acquired"));

@@ -21,7 +21,7 @@ template <typename Value>
 Json Curve(const Evaluation& evaluation, Value value) {
   Json curve = Json::array();
   for (const PoseRow& row : evaluation.result.poses)
-    curve.push_back(IsTracked(row) ? Rounded(value(row)) : Json());
+    curve.push_back(IsTracked(row) ? NumberOrNull(value(row)) : Json());
   return curve;
 }
 
@@ -31,7 +31,7 @@ Json ScoredCurve(const Evaluation& evaluation, Value value) {
   Json curve(evaluation.result.poses.size(), Json());
   if (!evaluation.accuracy) return curve;
   for (const FrameError& error : evaluation.accuracy->frames)
-    curve[static_cast<std::size_t>(error.pose)] = Rounded(value(error));
+    curve[static_cast<std::size_t>(error.pose)] = NumberOrNull(value(error));
   return curve;
 }
 
@@ -96,7 +96,7 @@ Json PartSizesFigure(const Evaluation& evaluation) {
   const Json x{{"x", {0, 1, 2, 3, 4, 5, 6, 7, 8, 9}}};
   for (const char* name : names) {
     const bool is_known = evaluation.truth && evaluation.truth->lengths_mm.contains(name);
-    truth.push_back(is_known ? Rounded(evaluation.truth->lengths_mm.at(name)) : Json());
+    truth.push_back(is_known ? NumberOrNull(evaluation.truth->lengths_mm.at(name)) : Json());
   }
   const bool has_truth = evaluation.truth && !evaluation.truth->lengths_mm.empty();
   Json series = Json::array({Series("acquired", kLeftFigure, "dots", acquired_mm, x)});
@@ -170,8 +170,8 @@ void AddAccuracySections(const Evaluation& evaluation, const Json& figures, Json
                   }))})})));
   Json lengths = Json::array();
   for (const LengthPair& pair : evaluation.lengths) {
-    lengths.push_back({pair.name, Rounded(pair.acquired_mm), Rounded(pair.true_mm),
-                       Rounded(pair.acquired_mm - pair.true_mm)});
+    lengths.push_back({pair.name, NumberOrNull(pair.acquired_mm), NumberOrNull(pair.true_mm),
+                       NumberOrNull(pair.acquired_mm - pair.true_mm)});
   }
   sections.push_back(Beside(
       {Json::array({BarTable("mean error of point", "mm", 1, figures["points_mm"])}),
@@ -192,7 +192,7 @@ void AddPrecisionSections(const Evaluation& evaluation, const Json& figures, Jso
   Json angles;
   for (int i = 0; i < kPaperAngleCount; ++i) {
     angles[fmt::format("θ{} {}", i + 1, kPaperJointNames[i])] =
-        Rounded(precision.angle_rad[i] * kDegreesPerRad);
+        NumberOrNull(precision.angle_rad[i] * kDegreesPerRad);
   }
   sections.push_back(Paragraph(fmt::format(
       "Mean absolute difference between the output and a smooth curve through it (Savitzky–Golay, "
@@ -210,19 +210,19 @@ void AddPrecisionSections(const Evaluation& evaluation, const Json& figures, Jso
 void AddCertaintySections(const Evaluation& evaluation, Json& sections) {
   const Certainty& certainty = *evaluation.certainty;
   Json tiles =
-      Json::array({Tile("Fit", Rounded(certainty.median_fit_mm), 1, "mm",
+      Json::array({Tile("Fit", NumberOrNull(certainty.median_fit_mm), 1, "mm",
                         fmt::format("median; 95 % below {:.1f} mm", certainty.p95_fit_mm))});
   const auto& check = certainty.check;
   if (certainty.median_deviation_mm) {
-    tiles.push_back(Tile("Deviation", Rounded(*certainty.median_deviation_mm), 1, "mm",
+    tiles.push_back(Tile("Deviation", NumberOrNull(*certainty.median_deviation_mm), 1, "mm",
                          check && check->within_two_deviations
                              ? fmt::format("median; {:.0f} % of the errors are within twice",
                                            100 * *check->within_two_deviations)
                              : "median"));
   }
   if (check) {
-    tiles.push_back(Tile("Error where the fit is better", Rounded(check->better_half_mm), 1, "mm",
-                         fmt::format("{:.1f} mm in the other half", check->worse_half_mm)));
+    tiles.push_back(Tile("Error where the fit is better", NumberOrNull(check->better_half_mm), 1,
+                         "mm", fmt::format("{:.1f} mm in the other half", check->worse_half_mm)));
   }
   sections.push_back(Heading("The tracker’s own view"));
   sections.push_back(Tiles(tiles));
@@ -230,7 +230,8 @@ void AddCertaintySections(const Evaluation& evaluation, Json& sections) {
     Json rows = Json::array();
     for (const ProbabilityBin& bin : check->probabilities.bins) {
       rows.push_back({fmt::format("{} to {}", bin.least, bin.most), bin.frames,
-                      Rounded(bin.sum / bin.frames), Rounded(100.0 * bin.right / bin.frames)});
+                      NumberOrNull(bin.sum / bin.frames),
+                      NumberOrNull(100.0 * bin.right / bin.frames)});
     }
     sections.push_back(Table({{"probability"}, {"frames", 0}, {"mean", 3}, {"right %", 1}}, rows));
     sections.push_back(Paragraph(fmt::format("Right: mean error below {:.0f} mm.", kRightPoseMm)));
@@ -282,8 +283,8 @@ Json PathsFigure(const std::string& title, const TakeSamples& samples, Json path
   Json x = Json::array(), y = Json::array(), names = Json::array();
   for (const CameraCalibration& camera : samples.cameras) {
     const Vector3 p_WC = camera.X_CW.Inverse().p / 1000;
-    x.push_back(Rounded(p_WC.x()));
-    y.push_back(Rounded(p_WC.y()));
+    x.push_back(NumberOrNull(p_WC.x()));
+    y.push_back(NumberOrNull(p_WC.y()));
     names.push_back(camera.name);
   }
   paths.insert(paths.begin(),
@@ -303,8 +304,8 @@ Json TrackingSections(const Evaluation& evaluation, const TakeSamples& samples) 
     for (const ScoredFrame& frame : evaluation.truth->frames) {
       const Vector3 p_W =
           (frame.points_W.col(Index(Point::kNeck)) + HipsMiddle(frame.points_W)) / 2000;
-      x.push_back(Rounded(p_W.x()));
-      y.push_back(Rounded(p_W.y()));
+      x.push_back(NumberOrNull(p_W.x()));
+      y.push_back(NumberOrNull(p_W.y()));
     }
     paths.push_back(Series("true", kRightFigure, "dashed", y, {{"x", x}}));
   }
@@ -319,14 +320,14 @@ Json TrackingSections(const Evaluation& evaluation, const TakeSamples& samples) 
 
 Json OverlapSections(std::span<const double> frames, std::span<const CameraOverlap> overlaps) {
   Json series = Json::array(), rows = Json::array(), x = Json::array();
-  for (const double frame : frames) x.push_back(Rounded(frame));
+  for (const double frame : frames) x.push_back(NumberOrNull(frame));
   for (const CameraOverlap& overlap : overlaps) {
     Json percents = Json::array();
-    for (const double share : overlap.iou) percents.push_back(Rounded(100 * share));
+    for (const double share : overlap.iou) percents.push_back(NumberOrNull(100 * share));
     series.push_back(Series(overlap.camera, static_cast<int>(series.size()), "line", percents));
-    rows.push_back({overlap.camera, overlap.frames(), Rounded(100 * overlap.mean()),
-                    Rounded(100 * overlap.lowest()),
-                    overlap.unknown_share ? Rounded(100 * *overlap.unknown_share) : Json()});
+    rows.push_back({overlap.camera, overlap.frames(), NumberOrNull(100 * overlap.mean()),
+                    NumberOrNull(100 * overlap.lowest()),
+                    overlap.unknown_share ? NumberOrNull(100 * *overlap.unknown_share) : Json()});
   }
   return {Heading("Voxels and silhouettes"),
           Figure("Overlap of the voxels, projected back, and the silhouettes",

@@ -138,9 +138,9 @@ Json Series(const std::string& label, int figure, const std::string& mark, Json 
   return more;
 }
 
-Json Rounded(double value) {
-  if (!std::isfinite(value)) return nullptr;
-  return std::round(1000 * value) / 1000;
+Json NumberOrNull(double value) {
+  constexpr int kDecimals = 3;
+  return std::isfinite(value) ? Rounded(value, kDecimals) : Json();
 }
 
 }  // namespace mocap

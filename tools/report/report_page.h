@@ -58,6 +58,6 @@ Json Series(const std::string& label, int figure, const std::string& mark, Json 
             Json more = Json::object());
 
 /// A number with three decimals; null if it is not finite.
-Json Rounded(double value);
+Json NumberOrNull(double value);
 
 }  // namespace mocap

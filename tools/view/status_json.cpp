@@ -9,6 +9,7 @@ template <typename Of>
 void Judge(std::span<const StatusField<Of>> fields, const Of& of, Json& json) {
   json["poor"] = Json::array();
   for (const StatusField<Of>& field : fields) {
+    if (field.key.empty()) continue;
     if (!field.IsKnown(of)) json[std::string(field.key)] = nullptr;
     if (field.IsPoor(of)) json["poor"].push_back(field.key);
   }

@@ -57,9 +57,9 @@ TEST(Table, NamesAreTextAndOtherColumnsHaveDecimals) {
 }
 
 TEST(Rounded, NumbersAreShortAndUnknownOnesNull) {
-  EXPECT_EQ(Rounded(1.23456).dump(), "1.235");
-  EXPECT_TRUE(Rounded(std::nan("")).is_null());
-  EXPECT_TRUE(Rounded(std::numeric_limits<double>::infinity()).is_null());
+  EXPECT_EQ(NumberOrNull(1.23456).dump(), "1.235");
+  EXPECT_TRUE(NumberOrNull(std::nan("")).is_null());
+  EXPECT_TRUE(NumberOrNull(std::numeric_limits<double>::infinity()).is_null());
 }
 
 }  // namespace
