@@ -10,6 +10,31 @@ namespace {
 constexpr double kSole_mm = 20;
 constexpr double kHair_mm = 15;
 
+/// An arm's parts, segments and points.
+struct Arm {
+  BodyPart upper, lower;
+  Segment upper_segment, lower_segment, hand;
+  Point shoulder, elbow, wrist, tips;
+};
+
+/// A leg's.
+struct Leg {
+  BodyPart upper, lower;
+  Segment upper_segment, lower_segment, foot;
+  Point hip, knee, ankle, sole;
+};
+
+constexpr Arm kArms[] = {
+    {BodyPart::kUpperArmL, BodyPart::kLowerArmL, Segment::kUpperArmL, Segment::kLowerArmL,
+     Segment::kHandL, Point::kShoulderL, Point::kElbowL, Point::kWristL, Point::kFingertipsL},
+    {BodyPart::kUpperArmR, BodyPart::kLowerArmR, Segment::kUpperArmR, Segment::kLowerArmR,
+     Segment::kHandR, Point::kShoulderR, Point::kElbowR, Point::kWristR, Point::kFingertipsR}};
+constexpr Leg kLegs[] = {
+    {BodyPart::kThighL, BodyPart::kCalfL, Segment::kThighL, Segment::kCalfL, Segment::kFootL,
+     Point::kHipL, Point::kKneeL, Point::kAnkleL, Point::kFootL},
+    {BodyPart::kThighR, BodyPart::kCalfR, Segment::kThighR, Segment::kCalfR, Segment::kFootR,
+     Point::kHipR, Point::kKneeR, Point::kAnkleR, Point::kFootR}};
+
 class ShapeBuilder {
  public:
   ShapeBuilder(const BodyTable& table, const BodySizes& sizes, const BodyPlaces& points_T,
@@ -74,34 +99,31 @@ class ShapeBuilder {
   }
 
   // The flesh over the shoulder joint is thinner than that beside it.
-  void AddArm(BodyPart upper, BodyPart lower, Segment upper_segment, Segment lower_segment,
-              Segment hand, Point shoulder_point, Point elbow_point, Point wrist_point,
-              Point tips_point) {
+  void AddArm(const Arm& arm) {
     const BodySizes& s = sizes_;
-    const Vector3 shoulder = At(shoulder_point);
-    const Vector3 elbow = At(elbow_point);
-    const Vector3 tips = At(tips_point);
+    const Vector3 shoulder = At(arm.shoulder);
+    const Vector3 elbow = At(arm.elbow);
+    const Vector3 tips = At(arm.tips);
     const double upper_radius = s.upper_arm_width / 2;
     const double lower_radius = s.lower_arm_width / 2;
     const Vector3 deltoid = shoulder + 0.05 * (elbow - shoulder);
-    Add(upper, upper_segment, deltoid, elbow, 1.2 * upper_radius, 0.85 * upper_radius, true);
-    const Vector3 wrist = At(wrist_point);
+    Add(arm.upper, arm.upper_segment, deltoid, elbow, 1.2 * upper_radius, 0.85 * upper_radius,
+        true);
+    const Vector3 wrist = At(arm.wrist);
     const double hand_radius = 0.9 * lower_radius;
     const Vector3 fingers = tips - hand_radius * (tips - elbow).normalized();
-    Add(lower, lower_segment, elbow, wrist, 1.1 * lower_radius, 0.75 * lower_radius);
-    Add(lower, hand, wrist, fingers, lower_radius, hand_radius, true);
+    Add(arm.lower, arm.lower_segment, elbow, wrist, 1.1 * lower_radius, 0.75 * lower_radius);
+    Add(arm.lower, arm.hand, wrist, fingers, lower_radius, hand_radius, true);
   }
 
   // The thigh's root lies behind the hip, its bulge in front of the line from hip to knee, the calf
   // behind that from knee to ankle. Foot length and breadth are shares of the stature: Winter 2009,
   // Fig. 4.1.
-  void AddLeg(BodyPart upper, BodyPart lower, Segment upper_segment, Segment lower_segment,
-              Segment foot, Point hip_point, Point knee_point, Point ankle_point,
-              Point foot_point) {
+  void AddLeg(const Leg& leg) {
     const BodySizes& s = sizes_;
-    const Vector3 hip = At(hip_point);
-    const Vector3 knee = At(knee_point);
-    const Vector3 sole = At(foot_point) - Vector3(0, 0, kSole_mm);
+    const Vector3 hip = At(leg.hip);
+    const Vector3 knee = At(leg.knee);
+    const Vector3 sole = At(leg.sole) - Vector3(0, 0, kSole_mm);
     const double thigh_radius = s.thigh_width / 2;
     const double calf_radius = s.calf_width / 2;
     constexpr double kFront = 0.55;
@@ -109,22 +131,22 @@ class ShapeBuilder {
     const double front_radius = 0.5 * (1.1 * thigh_radius + 1.1 * calf_radius);
     const double front_drape = s.drape_hip + kFront * (s.drape_knee - s.drape_hip);
     const Vector3 root = hip - Vector3(0.1 * thigh_radius, 0, 0);
-    Add(upper, upper_segment, root, front, 1.1 * thigh_radius, front_radius);
+    Add(leg.upper, leg.upper_segment, root, front, 1.1 * thigh_radius, front_radius);
     Drape(s.drape_hip, front_drape);
-    Add(upper, upper_segment, front, knee, front_radius, 1.05 * calf_radius);
+    Add(leg.upper, leg.upper_segment, front, knee, front_radius, 1.05 * calf_radius);
     Drape(front_drape, s.drape_knee);
-    const Vector3 ankle = At(ankle_point);
+    const Vector3 ankle = At(leg.ankle);
     const Vector3 belly = knee + 0.3 * (ankle - knee) - Vector3(0.35 * calf_radius, 0, 0);
-    Add(lower, lower_segment, knee, belly, 1.05 * calf_radius, 1.1 * calf_radius);
+    Add(leg.lower, leg.lower_segment, knee, belly, 1.05 * calf_radius, 1.1 * calf_radius);
     Drape(s.drape_knee, s.drape_calf);
-    Add(lower, lower_segment, belly, ankle, 1.1 * calf_radius, 0.7 * calf_radius);
+    Add(leg.lower, leg.lower_segment, belly, ankle, 1.1 * calf_radius, 0.7 * calf_radius);
     Drape(s.drape_calf, s.drape_ankle);
     const double length = 0.152 * s.Stature();
     const double breadth = 0.055 * s.Stature();
     const double heel_radius = 0.38 * breadth;
     const double ball_radius = 0.3 * breadth;
     for (const double side : {1.0, -1.0}) {
-      Add(lower, foot, sole + Vector3(-0.1 * length, 0, heel_radius),
+      Add(leg.lower, leg.foot, sole + Vector3(-0.1 * length, 0, heel_radius),
           sole + Vector3(0.65 * length, side * 0.25 * breadth, ball_radius), heel_radius,
           ball_radius, true);
     }
@@ -145,16 +167,8 @@ void BuildShape(const BodyTable& table, const BodySizes& sizes,
   ShapeBuilder builder(table, sizes, reference_points_T, capsules);
   builder.AddTrunk();
   builder.AddHead();
-  builder.AddArm(BodyPart::kUpperArmL, BodyPart::kLowerArmL, Segment::kUpperArmL,
-                 Segment::kLowerArmL, Segment::kHandL, Point::kShoulderL, Point::kElbowL,
-                 Point::kWristL, Point::kFingertipsL);
-  builder.AddArm(BodyPart::kUpperArmR, BodyPart::kLowerArmR, Segment::kUpperArmR,
-                 Segment::kLowerArmR, Segment::kHandR, Point::kShoulderR, Point::kElbowR,
-                 Point::kWristR, Point::kFingertipsR);
-  builder.AddLeg(BodyPart::kThighL, BodyPart::kCalfL, Segment::kThighL, Segment::kCalfL,
-                 Segment::kFootL, Point::kHipL, Point::kKneeL, Point::kAnkleL, Point::kFootL);
-  builder.AddLeg(BodyPart::kThighR, BodyPart::kCalfR, Segment::kThighR, Segment::kCalfR,
-                 Segment::kFootR, Point::kHipR, Point::kKneeR, Point::kAnkleR, Point::kFootR);
+  for (const Arm& arm : kArms) builder.AddArm(arm);
+  for (const Leg& leg : kLegs) builder.AddLeg(leg);
 }
 
 PosedCapsule::Distance PosedCapsule::DistanceTo(const Vector3& p_WQ) const {

@@ -9,6 +9,43 @@ constexpr double kClavicleAside = 0.07;
 constexpr double kWristShare = 0.575;
 constexpr double kAnkleHeight = 0.137;
 
+/// One side of the body: 1 to the left, -1 to the right, and its points.
+struct Side {
+  double sign;
+  Point shoulder, upper_arm, elbow, lower_arm, fingertips;
+  Point hip, thigh, knee, calf, foot;
+  Point clavicle, wrist, ankle;
+};
+
+constexpr Side kLeft{1,
+                     Point::kShoulderL,
+                     Point::kUpperArmL,
+                     Point::kElbowL,
+                     Point::kLowerArmL,
+                     Point::kFingertipsL,
+                     Point::kHipL,
+                     Point::kThighL,
+                     Point::kKneeL,
+                     Point::kCalfL,
+                     Point::kFootL,
+                     Point::kClavicleL,
+                     Point::kWristL,
+                     Point::kAnkleL};
+constexpr Side kRight{-1,
+                      Point::kShoulderR,
+                      Point::kUpperArmR,
+                      Point::kElbowR,
+                      Point::kLowerArmR,
+                      Point::kFingertipsR,
+                      Point::kHipR,
+                      Point::kThighR,
+                      Point::kKneeR,
+                      Point::kCalfR,
+                      Point::kFootR,
+                      Point::kClavicleR,
+                      Point::kWristR,
+                      Point::kAnkleR};
+
 }  // namespace
 
 BodySizes AverageSizes(double stature_mm) {
@@ -49,36 +86,28 @@ BodyPlaces ReferencePoints(const BodySizes& s, const JointPlacement& placement) 
   at(Point::kNeck) << -placement.neck_behind * s.torso, 0, top;
   at(Point::kHead) = at(Point::kNeck);
   at(Point::kHead) += Eigen::Vector3d(placement.head_forward * s.neck, 0, s.neck);
-  const auto set_side = [&](double side, Point shoulder, Point upper_arm, Point elbow,
-                            Point lower_arm, Point fingertips, Point hip, Point thigh, Point knee,
-                            Point calf, Point foot, Point clavicle, Point wrist, Point ankle) {
-    at(shoulder) << -placement.shoulder_behind * s.torso, side * s.shoulder_width / 2,
+  for (const Side& on : {kLeft, kRight}) {
+    at(on.shoulder) << -placement.shoulder_behind * s.torso, on.sign * s.shoulder_width / 2,
         top - placement.shoulder_below_neck * s.torso;
-    at(elbow) = at(shoulder);
-    at(elbow).y() += side * s.upper_arm;
-    at(fingertips) = at(elbow);
-    at(fingertips).y() += side * s.lower_arm;
-    at(hip) << -placement.hip_behind * s.torso, side * s.hip_width / 2, -top;
-    at(knee) = at(hip);
-    at(knee).z() -= s.thigh;
-    at(foot) = at(knee);
-    at(foot).z() -= s.calf;
-    at(upper_arm) = (at(shoulder) + at(elbow)) / 2;
-    at(lower_arm) = (at(elbow) + at(fingertips)) / 2;
-    at(thigh) = (at(hip) + at(knee)) / 2;
-    at(calf) = (at(knee) + at(foot)) / 2;
-    at(clavicle) << at(shoulder).x(), side * kClavicleAside * s.shoulder_width,
+    at(on.elbow) = at(on.shoulder);
+    at(on.elbow).y() += on.sign * s.upper_arm;
+    at(on.fingertips) = at(on.elbow);
+    at(on.fingertips).y() += on.sign * s.lower_arm;
+    at(on.hip) << -placement.hip_behind * s.torso, on.sign * s.hip_width / 2, -top;
+    at(on.knee) = at(on.hip);
+    at(on.knee).z() -= s.thigh;
+    at(on.foot) = at(on.knee);
+    at(on.foot).z() -= s.calf;
+    at(on.upper_arm) = (at(on.shoulder) + at(on.elbow)) / 2;
+    at(on.lower_arm) = (at(on.elbow) + at(on.fingertips)) / 2;
+    at(on.thigh) = (at(on.hip) + at(on.knee)) / 2;
+    at(on.calf) = (at(on.knee) + at(on.foot)) / 2;
+    at(on.clavicle) << at(on.shoulder).x(), on.sign * kClavicleAside * s.shoulder_width,
         top - placement.clavicle_below_neck * s.torso;
-    at(wrist) = at(elbow) + kWristShare * (at(fingertips) - at(elbow));
-    at(ankle) = at(foot);
-    at(ankle).z() += kAnkleHeight * s.calf;
-  };
-  set_side(1, Point::kShoulderL, Point::kUpperArmL, Point::kElbowL, Point::kLowerArmL,
-           Point::kFingertipsL, Point::kHipL, Point::kThighL, Point::kKneeL, Point::kCalfL,
-           Point::kFootL, Point::kClavicleL, Point::kWristL, Point::kAnkleL);
-  set_side(-1, Point::kShoulderR, Point::kUpperArmR, Point::kElbowR, Point::kLowerArmR,
-           Point::kFingertipsR, Point::kHipR, Point::kThighR, Point::kKneeR, Point::kCalfR,
-           Point::kFootR, Point::kClavicleR, Point::kWristR, Point::kAnkleR);
+    at(on.wrist) = at(on.elbow) + kWristShare * (at(on.fingertips) - at(on.elbow));
+    at(on.ankle) = at(on.foot);
+    at(on.ankle).z() += kAnkleHeight * s.calf;
+  }
   return p;
 }
 

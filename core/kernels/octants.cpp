@@ -21,90 +21,159 @@ HWY_INLINE void Store(Floats numbers, OctantFrames::Lanes& to, std::size_t k) {
   hn::StoreU(numbers, kFloats, &to[k]);
 }
 
-// Projects octants from the k-th on.
-HWY_INLINE OctantBits Project(const OctantCamera& camera, const std::array<float, 3>& middle,
-                              float spread, float half, std::size_t k, OctantFrames& f) {
-  const auto& R = camera.R;
-  const SensorPlaneNodes& t = camera.table;
+// Along x, y and z of the world, for each octant.
+using Gradients = std::array<Floats, 3>;
+
+HWY_INLINE void Store(const Gradients& numbers, std::array<OctantFrames::Lanes, 3>& to,
+                      std::size_t k) {
+  for (std::size_t i = 0; i < 3; ++i) Store(numbers[i], to[i], k);
+}
+
+// The most that a linear function changes within a cube, per half of its side.
+HWY_INLINE Floats Reach(const Gradients& g) {
+  return hn::Abs(g[0]) + hn::Abs(g[1]) + hn::Abs(g[2]);
+}
+
+// Cubes on the sensor plane (Xu/f, Yu/f).
+struct PlaneView {
+  Floats x, y;
+  Gradients along_x, along_y;  // [1/mm].
+  Floats reach_x, reach_y;     // Of the cube around (x, y).
+  Gradients depth;             // Change of the depth, as a share of it [1/mm].
+  Floats slant, grown;         // Its reach; a bound of 1 / (1 + depth · o) within the cube.
+  Choice is_ahead, is_behind;
+};
+
+HWY_INLINE Gradients Turned(const std::array<float, 3>& row, Floats per_z) {
+  return {All(row[0]) * per_z, All(row[1]) * per_z, All(row[2]) * per_z};
+}
+
+HWY_INLINE Floats InCamera(const OctantCamera& camera, std::size_t axis, const Gradients& w) {
+  const auto& row = camera.R[axis];
+  return All(row[0]) * w[0] + All(row[1]) * w[1] + All(row[2]) * w[2] + All(camera.p[axis]);
+}
+
+HWY_INLINE PlaneView OnPlane(const OctantCamera& camera, const Gradients& w, float half) {
   const float nearest = kNearestOctant * half + 1;
-  const Floats one = All(1.0f), small = All(1e-3f);
-  const Floats wx = All(middle[0]) + All(spread) * hn::LoadU(kFloats, &kOctantX[k]);
-  const Floats wy = All(middle[1]) + All(spread) * hn::LoadU(kFloats, &kOctantY[k]);
-  const Floats wz = All(middle[2]) + All(spread) * hn::LoadU(kFloats, &kOctantZ[k]);
-  const Floats cx = All(R[0][0]) * wx + All(R[0][1]) * wy + All(R[0][2]) * wz + All(camera.p[0]);
-  const Floats cy = All(R[1][0]) * wx + All(R[1][1]) * wy + All(R[1][2]) * wz + All(camera.p[1]);
-  const Floats cz = All(R[2][0]) * wx + All(R[2][1]) * wy + All(R[2][2]) * wz + All(camera.p[2]);
-  const Choice is_ahead = hn::Gt(cz, All(nearest));
-  const Floats per_z = one / hn::IfThenElse(is_ahead, cz, All(nearest));
-  const Floats nx = cx * per_z, ny = cy * per_z;
-  // Derivatives of (Xu/f, Yu/f) [1/mm], and the cube's reach there.
-  const Floats d0 = All(R[2][0]) * per_z, d1 = All(R[2][1]) * per_z, d2 = All(R[2][2]) * per_z;
-  const Floats u0 = All(R[0][0]) * per_z - nx * d0, u1 = All(R[0][1]) * per_z - nx * d1;
-  const Floats u2 = All(R[0][2]) * per_z - nx * d2;
-  const Floats v0 = All(R[1][0]) * per_z - ny * d0, v1 = All(R[1][1]) * per_z - ny * d1;
-  const Floats v2 = All(R[1][2]) * per_z - ny * d2;
-  const Floats slant = hn::Abs(d0) + hn::Abs(d1) + hn::Abs(d2);
-  const Floats grown = one / (one - Lesser(All(half) * slant, All(0.5f)));
-  const Floats reach_u = All(half) * (hn::Abs(u0) + hn::Abs(u1) + hn::Abs(u2)) * grown;
-  const Floats reach_v = All(half) * (hn::Abs(v0) + hn::Abs(v1) + hn::Abs(v2)) * grown;
-  const Floats rim = reach_u + reach_v + small;
+  const Floats one = All(1.0f);
+  const Floats cx = InCamera(camera, 0, w), cy = InCamera(camera, 1, w);
+  const Floats cz = InCamera(camera, 2, w);
+  PlaneView view;
+  view.is_ahead = hn::Gt(cz, All(nearest));
+  view.is_behind = hn::Lt(cz, All(-nearest));
+  const Floats per_z = one / hn::IfThenElse(view.is_ahead, cz, All(nearest));
+  view.x = cx * per_z;
+  view.y = cy * per_z;
+  view.depth = Turned(camera.R[2], per_z);
+  const Gradients right = Turned(camera.R[0], per_z), down = Turned(camera.R[1], per_z);
+  for (std::size_t i = 0; i < 3; ++i) {
+    view.along_x[i] = right[i] - view.x * view.depth[i];
+    view.along_y[i] = down[i] - view.y * view.depth[i];
+  }
+  view.slant = Reach(view.depth);
+  view.grown = one / (one - Lesser(All(half) * view.slant, All(0.5f)));
+  view.reach_x = All(half) * Reach(view.along_x) * view.grown;
+  view.reach_y = All(half) * Reach(view.along_y) * view.grown;
+  return view;
+}
+
+// Which cubes the lens shows as a whole, and which lie outside its picture.
+struct FieldTest {
+  Choice is_inside, misses;
+};
+
+HWY_INLINE FieldTest TestField(const SensorPlaneNodes& t, const PlaneView& view) {
+  const Floats small = All(1e-3f);
+  const Floats rim = view.reach_x + view.reach_y + small;
   const Floats field = All(t.field_radius) + rim;
   const Floats inner = Larger(All(t.field_radius) - rim, hn::Zero(kFloats));
-  const Floats off_axis = nx * nx + ny * ny;
+  const Floats off_axis = view.x * view.x + view.y * view.y;
   const Floats beyond =
-      Larger(Larger(off_axis - field * field, All(t.low_x) - (nx + reach_u + small)),
-             All(t.low_y) - (ny + reach_v + small));
-  const Floats beside =
-      Larger(nx - reach_u - small - All(t.high_x), ny - reach_v - small - All(t.high_y));
-  const Choice misses = hn::Gt(Larger(beyond, beside), hn::Zero(kFloats));
-  const Choice is_behind = hn::Lt(cz, All(-nearest));
+      Larger(Larger(off_axis - field * field, All(t.low_x) - (view.x + view.reach_x + small)),
+             All(t.low_y) - (view.y + view.reach_y + small));
+  const Floats beside = Larger(view.x - view.reach_x - small - All(t.high_x),
+                               view.y - view.reach_y - small - All(t.high_y));
+  return {hn::Gt(inner * inner, off_axis), hn::Gt(Larger(beyond, beside), hn::Zero(kFloats))};
+}
 
+// Cubes in the table of the sensor plane, in its cells.
+struct TablePlace {
+  Floats u, v, reach_u, reach_v;
+  Choice has_room;  // The table holds all of the cube.
+};
+
+HWY_INLINE TablePlace InTable(const SensorPlaneNodes& t, const PlaneView& view) {
   const Floats scale = All(t.cells_per_unit);
-  const Floats u = (nx - All(t.origin_x)) * scale, v = (ny - All(t.origin_y)) * scale;
-  const Floats du = reach_u * scale, dv = reach_v * scale;
+  const Floats u = (view.x - All(t.origin_x)) * scale, v = (view.y - All(t.origin_y)) * scale;
+  const Floats du = view.reach_x * scale, dv = view.reach_y * scale;
   const Floats reach = All(static_cast<float>(kBendReach_cells));
   const Floats room = Lesser(Lesser(Lesser(u - du, All(t.last_column) - (u + du)),
                                     Lesser(v - dv, All(t.last_row) - (v + dv))),
                              Lesser(reach - du, reach - dv));
-  const Choice is_valid =
-      hn::And(hn::And(is_ahead, hn::Gt(inner * inner, off_axis)), hn::Gt(room, hn::Zero(kFloats)));
-  const Floats near_u = Clamped(kFloats, u, 0.0f, t.last_column - 1);
-  const Floats near_v = Clamped(kFloats, v, 0.0f, t.last_row - 1);
+  return {u, v, du, dv, hn::Gt(room, hn::Zero(kFloats))};
+}
+
+// The table at a place: pixels, their slopes per unit of the sensor plane, and the bend [px].
+struct TableLook {
+  Floats x, y, x_per_u, x_per_v, y_per_u, y_per_v, bend;
+};
+
+HWY_INLINE TableLook LookUp(const SensorPlaneNodes& t, const TablePlace& place) {
+  const Floats near_u = Clamped(kFloats, place.u, 0.0f, t.last_column - 1);
+  const Floats near_v = Clamped(kFloats, place.v, 0.0f, t.last_row - 1);
   const Ints column = Truncated(kFloats, near_u), row = Truncated(kFloats, near_v);
   const Floats a = near_u - hn::ConvertTo(kFloats, column);
   const Floats b = near_v - hn::ConvertTo(kFloats, row);
   const Places<D> node(row * All(t.columns) + column);
   const auto [x00, y00, x01, y01] = LoadPairs(t.nodes, node);
   const auto [x10, y10, x11, y11] = LoadPairs(t.nodes + t.columns, node);
-  const Floats bend = node.LookUp(t.bends_px);
   const Floats top_x = x00 + a * (x01 - x00), top_y = y00 + a * (y01 - y00);
   const Floats down_x = x10 + a * (x11 - x10) - top_x, down_y = y10 + a * (y11 - y10) - top_y;
   const Floats right_x = (x01 - x00) + b * (x11 - x10 - x01 + x00);
   const Floats right_y = (y01 - y00) + b * (y11 - y10 - y01 + y00);
-  const Floats x = top_x + b * down_x, y = top_y + b * down_y;
-  const Floats xu = right_x * scale, xv = down_x * scale;
-  const Floats yu = right_y * scale, yv = down_y * scale;
-  const Floats ax0 = xu * u0 + xv * v0, ax1 = xu * u1 + xv * v1, ax2 = xu * u2 + xv * v2;
-  const Floats ay0 = yu * u0 + yv * v0, ay1 = yu * u1 + yv * v1, ay2 = yu * u2 + yv * v2;
+  const Floats scale = All(t.cells_per_unit);
+  return {top_x + b * down_x, top_y + b * down_y, right_x * scale,        down_x * scale,
+          right_y * scale,    down_y * scale,     node.LookUp(t.bends_px)};
+}
+
+// The slope changes at each cell boundary within the cube: at worst immediately and then after each
+// whole cell, and along the cells.
+HWY_INLINE Floats ErrorOf(const TablePlace& place, Floats bend) {
+  const Floats one = All(1.0f), two = All(2.0f), du = place.reach_u, dv = place.reach_v;
+  return bend * (Larger(du, two * du - one) + Larger(dv, two * dv - one) + du * dv) +
+         All(kOctantRounding_px);
+}
+
+HWY_INLINE Gradients Chained(Floats per_u, Floats per_v, const PlaneView& view) {
+  return {per_u * view.along_x[0] + per_v * view.along_y[0],
+          per_u * view.along_x[1] + per_v * view.along_y[1],
+          per_u * view.along_x[2] + per_v * view.along_y[2]};
+}
+
+// Projects octants from the k-th on.
+HWY_INLINE OctantBits Project(const OctantCamera& camera, const std::array<float, 3>& middle,
+                              float spread, float half, std::size_t k, OctantFrames& f) {
+  const Gradients w = {All(middle[0]) + All(spread) * hn::LoadU(kFloats, &kOctantX[k]),
+                       All(middle[1]) + All(spread) * hn::LoadU(kFloats, &kOctantY[k]),
+                       All(middle[2]) + All(spread) * hn::LoadU(kFloats, &kOctantZ[k])};
+  const PlaneView view = OnPlane(camera, w, half);
+  const FieldTest field = TestField(camera.table, view);
+  const TablePlace place = InTable(camera.table, view);
+  const TableLook look = LookUp(camera.table, place);
+  const Choice is_valid = hn::And(hn::And(view.is_ahead, field.is_inside), place.has_room);
+  const Gradients along_x = Chained(look.x_per_u, look.x_per_v, view);
+  const Gradients along_y = Chained(look.y_per_u, look.y_per_v, view);
   // Within the cube, `grown` bounds 1 / (1 + depth · o), and grown² · slant its change.
-  const Floats growth = grown + All(half) * slant * grown * grown;
-  const Floats reach_x = (hn::Abs(ax0) + hn::Abs(ax1) + hn::Abs(ax2)) * growth;
-  const Floats reach_y = (hn::Abs(ay0) + hn::Abs(ay1) + hn::Abs(ay2)) * growth;
-  // The slope changes at each cell boundary in between: at worst immediately and then after each
-  // whole cell, and along the cells.
-  const Floats two = All(2.0f);
-  const Floats error = bend * (Larger(du, two * du - one) + Larger(dv, two * dv - one) + du * dv) +
-                       All(kOctantRounding_px);
-  Store(wx, f.middle[0], k), Store(wy, f.middle[1], k), Store(wz, f.middle[2], k);
-  Store(x, f.x, k), Store(y, f.y, k);
-  Store(ax0, f.along_x[0], k), Store(ax1, f.along_x[1], k), Store(ax2, f.along_x[2], k);
-  Store(ay0, f.along_y[0], k), Store(ay1, f.along_y[1], k), Store(ay2, f.along_y[2], k);
-  Store(d0, f.depth[0], k), Store(d1, f.depth[1], k), Store(d2, f.depth[2], k);
+  const Floats growth = view.grown + All(half) * view.slant * view.grown * view.grown;
+  const Floats reach_x = Reach(along_x) * growth, reach_y = Reach(along_y) * growth;
+  const Floats error = ErrorOf(place, look.bend);
+  Store(w, f.middle, k), Store(look.x, f.x, k), Store(look.y, f.y, k);
+  Store(along_x, f.along_x, k), Store(along_y, f.along_y, k), Store(view.depth, f.depth, k);
   Store(reach_x, f.reach_x, k), Store(reach_y, f.reach_y, k);
   Store(hn::IfThenElse(is_valid, error, error + All(kNoFrame_px)), f.error, k);
-  const Answer answer =
-      Judge({x, y, All(half) * reach_x + error, All(half) * reach_y + error}, camera.planes);
-  const Choice unseen = hn::Or(is_behind, hn::And(is_ahead, misses));
+  const Answer answer = Judge(
+      {look.x, look.y, All(half) * reach_x + error, All(half) * reach_y + error}, camera.planes);
+  const Choice unseen = hn::Or(view.is_behind, hn::And(view.is_ahead, field.misses));
   return Packed(BitsOf(hn::And(answer.inside, is_valid)), BitsOf(hn::And(answer.outside, is_valid)),
                 BitsOf(hn::Or(hn::And(answer.unseen, is_valid), unseen)),
                 BitsOf(hn::And(answer.unknown, is_valid)), k);

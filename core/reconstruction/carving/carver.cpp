@@ -163,8 +163,8 @@ OctantDecisions Carver::Walk::Judge(const Block& block, int i, float spread, flo
   const OctantView& eye = octant_views_[view];
   framed = 0;
   if (block.frames[i] != kNoFrame)
-    return eye.CoarsePass(FramesOf(block, i), block.frames[i] % OctantFrames::kLanes,
-                          MiddleOf(block), spread, half);
+    return eye.JudgeByFrame(FramesOf(block, i), block.frames[i] % OctantFrames::kLanes,
+                            MiddleOf(block), spread, half);
   return eye.Project(MiddleOf(block), spread, half, frames_[view][block.level], framed);
 }
 
@@ -241,7 +241,7 @@ bool Carver::Walk::VisitSamples(const Block& block) {
   std::array<SampleDecisions, kMostViews> decisions;
   const Eigen::Vector3f middle = MiddleOf(block);
   for (int i = 0; i < block.undecided; ++i) {
-    decisions[i] = octant_views_[block.views[i]].CoarsePassSamples(
+    decisions[i] = octant_views_[block.views[i]].JudgeSamplesByFrame(
         FramesOf(block, i), block.frames[i] % OctantFrames::kLanes, middle, VoxelMm() / 2,
         VoxelMm() / kSamplesPerSide / 2, asked);
     alive &= ~Carved(block.views[i], decisions[i].outside, denied);

@@ -38,16 +38,16 @@ OctantDecisions OctantView::Project(const Eigen::Vector3f& middle, float spread,
   return Unpack(bits);
 }
 
-OctantDecisions OctantView::CoarsePass(const OctantFrames& frames, int lane,
-                                       const Eigen::Vector3f& middle, float spread,
-                                       float half) const {
+OctantDecisions OctantView::JudgeByFrame(const OctantFrames& frames, int lane,
+                                         const Eigen::Vector3f& middle, float spread,
+                                         float half) const {
   return Unpack(kernels::JudgeOctants(camera_.planes, frames, lane,
                                       {middle.x(), middle.y(), middle.z()}, spread, half));
 }
 
-SampleDecisions OctantView::CoarsePassSamples(const OctantFrames& frames, int lane,
-                                              const Eigen::Vector3f& middle, float voxel_spread,
-                                              float sample_spread, std::uint8_t asked) const {
+SampleDecisions OctantView::JudgeSamplesByFrame(const OctantFrames& frames, int lane,
+                                                const Eigen::Vector3f& middle, float voxel_spread,
+                                                float sample_spread, std::uint8_t asked) const {
   const std::array<float, 3> p = {middle.x(), middle.y(), middle.z()};
   SampleDecisions decisions;
   if (kernels::JudgeSamples(camera_.planes, frames, lane, p, voxel_spread, sample_spread, asked,

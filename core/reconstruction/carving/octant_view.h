@@ -42,14 +42,14 @@ class OctantView {
                           OctantFrames& frames, std::uint8_t& framed) const;
 
   /// Tests octants by the frame of one that contains them all.
-  OctantDecisions CoarsePass(const OctantFrames& frames, int lane, const Eigen::Vector3f& middle,
-                             float spread, float half) const;
+  OctantDecisions JudgeByFrame(const OctantFrames& frames, int lane, const Eigen::Vector3f& middle,
+                               float spread, float half) const;
 
   /// Tests the samples of the eight voxels of a block in the same way.
   /// @param asked  voxels whose samples matter; others may stay undecided.
-  SampleDecisions CoarsePassSamples(const OctantFrames& frames, int lane,
-                                    const Eigen::Vector3f& middle, float voxel_spread,
-                                    float sample_spread, std::uint8_t asked) const;
+  SampleDecisions JudgeSamplesByFrame(const OctantFrames& frames, int lane,
+                                      const Eigen::Vector3f& middle, float voxel_spread,
+                                      float sample_spread, std::uint8_t asked) const;
 
  private:
   kernels::OctantCamera camera_;

@@ -121,7 +121,7 @@ TEST_F(OctantViewTest, AFrameServesForAllThatLiesInItsOctant) {
         std::uniform_real_distribution<double> shift(side - half + small_half / 2 - side / 2,
                                                      half - side / 2 - small_half / 2);
         const Vector3 offset(0, 0, side < 50 ? shift(random_) / 2 : 0);
-        const OctantDecisions decisions = eyes_[camera].CoarsePass(
+        const OctantDecisions decisions = eyes_[camera].JudgeByFrame(
             frames, lane, (frame_W + offset - kOrigin_W).cast<float>(),
             static_cast<float>(side / 2), static_cast<float>(std::max(small_half, 0.0)));
         for (int octant = 0; octant < OctantFrames::kLanes; ++octant)
@@ -145,7 +145,7 @@ TEST_F(OctantViewTest, SamplesOfEightVoxelsAreJudgedAsByThemselves) {
       if (~framed >> lane & 1) continue;
       const Vector3 frame_W = MiddleOf(middle_W, 25, lane);
       const std::uint8_t asked = i % 2 == 0 ? 0xff : 0x36;
-      const SampleDecisions samples = eyes_[camera].CoarsePassSamples(
+      const SampleDecisions samples = eyes_[camera].JudgeSamplesByFrame(
           frames, lane, (frame_W - kOrigin_W).cast<float>(), 12.5f, 6.25f, asked);
       for (int voxel = 0; voxel < OctantFrames::kLanes; ++voxel) {
         if (~asked >> voxel & 1) continue;
