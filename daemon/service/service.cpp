@@ -148,6 +148,111 @@ std::string RunUntilStopped(FramePath& path, Watch& watch, StopSignals& signals,
   return path.finished() ? "at the end of the source" : "after the time of --seconds";
 }
 
+/// Who gets what is captured: clients on LCM, recordings and viewers.
+struct Recipients {
+  Recipients(const Config& config, const PreparedService& prepared, const std::string& config_text)
+      : lcm(OwnChannels(config)),
+        publisher(*prepared.lcm, lcm, static_cast<int>(prepared.studio.cameras.size()),
+                  prepared.studio.times),
+        channels(lcm, publisher.sender()),
+        known(KnownBackgroundsOf(prepared.studio)),
+        recorder(RecordedStudioOf(prepared.studio, known, config_text)),
+        view(TruthFor(config.source)),
+        cameras(CalibrationsOf(prepared.studio)) {
+    publisher.Watch(channels);
+    publisher.Tap(recorder.taps().messages);
+    publisher.Describe(prepared.studio.name, cameras);
+    if (prepared.preview_lcm) beside.emplace(*prepared.preview_lcm, LcmProvider::kMulticast);
+    // Pictures of nodes go to the studio's viewers.
+    preview.emplace(beside ? *beside : publisher.sender(), config.lcm, cameras,
+                    prepared.studio.times);
+    outlet.emplace(publisher, view, *preview);
+  }
+
+  const LcmConfig lcm;
+  PosePublisher publisher;
+  ChannelWatch channels;
+  KnownBackgrounds known;
+  Recorder recorder;
+  LiveView view;
+  const std::vector<CameraCalibration> cameras;
+  std::optional<LcmSender> beside;
+  std::optional<PreviewPublisher> preview;
+  std::optional<Outlet> outlet;
+};
+
+/// What a node and its studio send each other. Empty where all cameras are local.
+struct Partners {
+  Partners(const Config& config, const Studio& studio, Recipients& recipients) {
+    if (config.role == Role::kStudio) nodes.emplace(config, recipients.cameras);
+    if (config.role != Role::kNode) return;
+    silhouettes.emplace(recipients.publisher.sender(), config, recipients.cameras);
+    studio_listener.emplace(config.lcm, NamesOf(recipients.cameras), studio.person);
+  }
+
+  void Listen() {
+    if (nodes) nodes->Listen();
+    if (studio_listener) studio_listener->Listen();
+  }
+
+  std::optional<NodeListener> nodes;              ///< Of a studio.
+  std::optional<SilhouetteSender> silhouettes;    ///< Of a node.
+  std::optional<StudioListener> studio_listener;  ///< Of a node.
+};
+
+/// What looks at the frames of each camera.
+struct LearningTaps {
+  explicit LearningTaps(std::size_t cameras) : background(cameras), furniture(cameras) {}
+
+  std::deque<FrameTap> background, furniture;
+};
+
+PipelineOptions OptionsFor(const Config& config, Recipients& recipients, LearningTaps& taps,
+                           Partners& partners, const StopSignals& signals) {
+  PipelineOptions options = PipelineOptionsFor(
+      config, {&recipients.recorder.taps().frames, &taps.background, &taps.furniture});
+  options.previews = &recipients.preview->taps();
+  options.stop = &signals.stop();
+  if (partners.nodes) {
+    options.elsewhere = [&partners](const auto& camera, int rays) {
+      return partners.nodes->Open(camera, rays);
+    };
+  }
+  return options;
+}
+
+void Announce(const Studio& studio, ServiceManager& manager) {
+  manager.Say("learning the empty studio");
+  spdlog::info("learning the background: {}, {}", studio.name,
+               Counted(studio.cameras.size(), "camera"));
+  for (const std::string& remark : studio.remarks) spdlog::warn("{}", remark);
+}
+
+template <typename T>
+T* PointerTo(std::optional<T>& part) {
+  return part ? &*part : nullptr;
+}
+
+/// Completes the take that is being recorded, and stops all threads.
+void Finish(const ServiceParts& parts, ServiceControl& control, ControlDesk& desk,
+            ServiceManager& manager, StopSignals& signals) {
+  const std::chrono::seconds patience = TakePatience(control.config());
+  const auto allow = [&](bool has_take) {
+    signals.Allow(has_take ? patience : kEndPatience, has_take);
+  };
+  allow(control.IsRecording());
+  manager.Stopping(patience + kGrace);
+  parts.background.RequestStop();
+  parts.occupied.RequestStop();
+  // A recording may be starting or ending.
+  desk.Close();
+  allow(control.IsRecording());
+  if (control.IsRecording()) control.EndRecording();
+  allow(false);
+  parts.path.RequestStop();
+  parts.path.Join();
+}
+
 void Run(LiveConfig& live, const ServiceLog& log, StopSignals& signals,
          std::optional<double> seconds) {
   const Config config = live.config();
@@ -156,90 +261,42 @@ void Run(LiveConfig& live, const ServiceLog& log, StopSignals& signals,
   PreparedService prepared = PrepareService(config);
   Studio& studio = prepared.studio;
   ServiceManager manager;
-  manager.Say("learning the empty studio");
-  spdlog::info("learning the background: {}, {}", studio.name,
-               Counted(studio.cameras.size(), "camera"));
-  for (const std::string& remark : studio.remarks) spdlog::warn("{}", remark);
+  Announce(studio, manager);
   const ServiceReport about = ReportAbout(config, studio);
   const LearningPlace learning = LearningPlaceFor(config, studio);
-  const LcmConfig lcm = OwnChannels(config);
-  PosePublisher publisher(*prepared.lcm, lcm, static_cast<int>(studio.cameras.size()),
-                          studio.times);
-  ChannelWatch channels(lcm, publisher.sender());
-  publisher.Watch(channels);
-  KnownBackgrounds known = KnownBackgroundsOf(studio);
-  Recorder recorder(RecordedStudioOf(studio, known, live.text()));
-  publisher.Tap(recorder.taps().messages);
-  LiveView view(TruthFor(config.source));
-  const std::vector<CameraCalibration> cameras = CalibrationsOf(studio);
-  publisher.Describe(studio.name, cameras);
-  std::optional<LcmSender> beside;
-  if (prepared.preview_lcm) beside.emplace(*prepared.preview_lcm, LcmProvider::kMulticast);
-  // Pictures of nodes go to the studio's viewers.
-  PreviewPublisher preview(beside ? *beside : publisher.sender(), config.lcm, cameras,
-                           studio.times);
-  Outlet outlet(publisher, view, preview);
-  std::deque<FrameTap> learning_taps(studio.cameras.size());
-  std::deque<FrameTap> furniture_taps(studio.cameras.size());
-  PipelineOptions options =
-      PipelineOptionsFor(config, {&recorder.taps().frames, &learning_taps, &furniture_taps});
-  options.previews = &preview.taps();
-  options.stop = &signals.stop();
-  std::optional<NodeListener> nodes;
-  if (config.role == Role::kStudio) {
-    nodes.emplace(config, cameras);
-    options.elsewhere = [&nodes](const auto& camera, int rays) {
-      return nodes->Open(camera, rays);
-    };
-  }
-  std::optional<SilhouetteSender> silhouettes;
-  std::optional<StudioListener> studio_listener;
+  Recipients to(config, prepared, live.text());
+  LearningTaps taps(studio.cameras.size());
+  Partners partners(config, studio, to);
+  const PipelineOptions options = OptionsFor(config, to, taps, partners, signals);
   std::unique_ptr<FramePath> path;
   Pipeline* pipeline = nullptr;
-  if (config.role == Role::kNode) {
-    silhouettes.emplace(publisher.sender(), config, cameras);
-    studio_listener.emplace(config.lcm, NamesOf(cameras), studio.person);
-    path = std::make_unique<NodePath>(std::move(studio), options, *silhouettes);
+  if (partners.silhouettes) {
+    path = std::make_unique<NodePath>(std::move(studio), options, *partners.silhouettes);
   } else {
-    auto tracking = std::make_unique<Pipeline>(std::move(studio), options, prepared.body, outlet);
+    auto tracking =
+        std::make_unique<Pipeline>(std::move(studio), options, prepared.body, *to.outlet);
     pipeline = tracking.get();
     path = std::move(tracking);
   }
-  BackgroundLearner learner(*path, learning_taps, known, learning);
-  OccupiedLearner occupied(*path, learning_taps, known, learning);
-  const ServiceParts parts{live, *path,    pipeline, publisher, preview,
-                           view, recorder, learner,  occupied};
+  BackgroundLearner learner(*path, taps.background, to.known, learning);
+  OccupiedLearner occupied(*path, taps.background, to.known, learning);
+  const ServiceParts parts{live,    *path,       pipeline, to.publisher, *to.preview,
+                           to.view, to.recorder, learner,  occupied};
   ServiceControl control(parts, Subjects(StateFolder() / "subjects"));
-  FurnitureLooks furniture(*path, furniture_taps, known, learning.cameras);
-  Watch watch(
-      parts,
-      {control, manager, channels, log, furniture, nodes ? &*nodes : nullptr,
-       silhouettes ? &*silhouettes : nullptr, studio_listener ? &*studio_listener : nullptr},
-      about);
+  FurnitureLooks furniture(*path, taps.furniture, to.known, learning.cameras);
+  Watch watch(parts,
+              {control, manager, to.channels, log, furniture, PointerTo(partners.nodes),
+               PointerTo(partners.silhouettes), PointerTo(partners.studio_listener)},
+              about);
   const OpenDesk open_desk(desk, control);
   spdlog::info("publishing on {}", config.lcm.url);
   signals.Allow(kEndPatience, false);
-  if (nodes) nodes->Listen();
-  if (studio_listener) studio_listener->Listen();
+  partners.Listen();
   // Learning the background has taken much.
   GiveBackFreeMemory();
   path->Start();
   spdlog::info("stopping {}", RunUntilStopped(*path, watch, signals, seconds));
-  const std::chrono::seconds patience = TakePatience(control.config());
-  const auto allow = [&](bool has_take) {
-    signals.Allow(has_take ? patience : kEndPatience, has_take);
-  };
-  allow(control.IsRecording());
-  manager.Stopping(patience + kGrace);
-  learner.RequestStop();
-  occupied.RequestStop();
-  // A recording may be starting or ending.
-  desk.Close();
-  allow(control.IsRecording());
-  if (control.IsRecording()) control.EndRecording();
-  allow(false);
-  path->RequestStop();
-  path->Join();
+  Finish(parts, control, desk, manager, signals);
   watch.Conclude();
 }
 
