@@ -176,9 +176,9 @@ Studio OpenTake(const std::filesystem::path& take, const TakeOptions& options) {
           ReadCameraTable(layout.Table(name), Find(calibrations, name, layout.Calibration())));
     }
   }
-  const auto replay =
-      std::make_shared<Replay>(SpanOf(spanned, header.fps_nominal, take), options.loop,
-                               realtime ? MakeTimelineClock() : nullptr, options.begin_ns);
+  const auto replay = std::make_shared<Replay>(
+      SpanOf(spanned, header.fps_nominal, take), options.loop,
+      realtime ? std::make_unique<TimelineClock>() : nullptr, options.begin_ns);
   for (std::size_t i = 0; i < names.size(); ++i) {
     StudioCamera& camera = studio.cameras[i];
     const std::filesystem::path pictures = layout.Video(names[i]);

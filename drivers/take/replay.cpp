@@ -6,17 +6,10 @@
 #include "drivers/clock.h"
 
 namespace mocap {
-namespace {
 
-class TimelineClock : public ReplayClock {
- public:
-  std::int64_t NowNs() override { return TimelineNs(); }
-  void SleepUntil(std::int64_t time_ns) override { mocap::SleepUntil(time_ns); }
-};
+std::int64_t TimelineClock::NowNs() { return TimelineNs(); }
 
-}  // namespace
-
-std::unique_ptr<ReplayClock> MakeTimelineClock() { return std::make_unique<TimelineClock>(); }
+void TimelineClock::SleepUntil(std::int64_t time_ns) { mocap::SleepUntil(time_ns); }
 
 std::int64_t Replay::Join() {
   const std::lock_guard lock(mutex_);

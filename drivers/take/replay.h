@@ -18,8 +18,12 @@ class ReplayClock {
   virtual void SleepUntil(std::int64_t time_ns) = 0;
 };
 
-/// Returns a clock on the program's timeline.
-std::unique_ptr<ReplayClock> MakeTimelineClock();
+/// The program's timeline.
+class TimelineClock : public ReplayClock {
+ public:
+  std::int64_t NowNs() override;
+  void SleepUntil(std::int64_t time_ns) override;
+};
 
 /// Time span of a recording, over all its cameras.
 struct ReplaySpan {

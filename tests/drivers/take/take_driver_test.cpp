@@ -284,10 +284,10 @@ TEST(TakeDriver, RecordingThatVanishesWhileLoopingIsLostUntilItIsBack) {
 }
 
 TEST(SystemClock, WakesNoEarlierThanAsked) {
-  const std::unique_ptr<ReplayClock> clock = MakeTimelineClock();
-  const std::int64_t wanted_ns = clock->NowNs() + kMillisecond_ns;
-  clock->SleepUntil(wanted_ns);
-  EXPECT_GE(clock->NowNs(), wanted_ns);
+  TimelineClock clock;
+  const std::int64_t wanted_ns = clock.NowNs() + kMillisecond_ns;
+  clock.SleepUntil(wanted_ns);
+  EXPECT_GE(clock.NowNs(), wanted_ns);
 }
 
 template <Pace pace, bool loop>
