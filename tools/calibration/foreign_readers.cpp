@@ -245,7 +245,6 @@ ForeignCameras ReadKalibr(const TextFiles& files, const ForeignProgram& program)
     if (const std::string model = table->Text("camera_model"); model != "pinhole")
       table->Fail("camera_model",
                   "is " + Quoted(model) + "; expected pinhole: calibrate with a pinhole model");
-    table->Text("distortion_model");
     ForeignCamera camera = ReadByKeys(program, name, *table, *table);
     camera.where = root.Where(name);
     if (!cameras.empty() && !table->Has("T_cn_cnm1")) X_CW.reset();
@@ -256,8 +255,12 @@ ForeignCameras ReadKalibr(const TextFiles& files, const ForeignProgram& program)
       camera.rotation = {table->Where("T_cn_cnm1"), {R.data(), R.data() + 9}};
       camera.translation_mm = {table->Where("T_cn_cnm1"), {t.data(), t.data() + 3}};
     }
-    if (camera.distortion.values.size() % 4 != 0 || camera.matrix.values.size() != 4)
-      table->Fail("intrinsics", "or distortion_coeffs has not 4 numbers");
+    if (table->Text("distortion_model") == "none") camera.distortion.values.assign(4, 0);
+    for (const ForeignNumbers& numbers : {camera.matrix, camera.distortion}) {
+      if (numbers.values.size() != 4)
+        throw SetupError(
+            fmt::format("{} has {} numbers; expected 4", numbers.where, numbers.values.size()));
+    }
     cameras.push_back(std::move(camera));
   }
   if (cameras.empty())

@@ -131,6 +131,9 @@ TEST_F(ImportTest, KalibrsChainIsFollowedInMetres) {
   };
   EXPECT_THAT(why("pinhole", "omni"), AllOf(HasSubstr("cam0.camera_model"), HasSubstr("omni")));
   EXPECT_THAT(why("radtan", "fov"), HasSubstr("cam0.distortion_model"));
+  EXPECT_THAT(why("0.001, -0.002]", "0.001]"),
+              HasSubstr("cam0.distortion_coeffs has 3 numbers; expected 4"));
+  EXPECT_THAT(why("901.0, ", ""), HasSubstr("cam0.intrinsics has 3 numbers; expected 4"));
   EXPECT_THAT(why("[0.0, 0.0, 1.0, 0.0]", "[0.0, 0.0, 2.0, 0.0]"), HasSubstr("cam1.T_cn_cnm1"));
   EXPECT_THAT(why("cam1:", "camX:"), HasSubstr("no pose"));
   Write("chain.yaml", Replaced(Replaced(chain, "radtan", "equidistant"), "radtan", "none"));
