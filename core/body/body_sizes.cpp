@@ -9,43 +9,6 @@ constexpr double kClavicleAside = 0.07;
 constexpr double kWristShare = 0.575;
 constexpr double kAnkleHeight = 0.137;
 
-/// One side of the body: 1 to the left, -1 to the right, and its points.
-struct Side {
-  double sign;
-  Point shoulder, upper_arm, elbow, lower_arm, fingertips;
-  Point hip, thigh, knee, calf, foot;
-  Point clavicle, wrist, ankle;
-};
-
-constexpr Side kLeft{1,
-                     Point::kShoulderL,
-                     Point::kUpperArmL,
-                     Point::kElbowL,
-                     Point::kLowerArmL,
-                     Point::kFingertipsL,
-                     Point::kHipL,
-                     Point::kThighL,
-                     Point::kKneeL,
-                     Point::kCalfL,
-                     Point::kFootL,
-                     Point::kClavicleL,
-                     Point::kWristL,
-                     Point::kAnkleL};
-constexpr Side kRight{-1,
-                      Point::kShoulderR,
-                      Point::kUpperArmR,
-                      Point::kElbowR,
-                      Point::kLowerArmR,
-                      Point::kFingertipsR,
-                      Point::kHipR,
-                      Point::kThighR,
-                      Point::kKneeR,
-                      Point::kCalfR,
-                      Point::kFootR,
-                      Point::kClavicleR,
-                      Point::kWristR,
-                      Point::kAnkleR};
-
 }  // namespace
 
 BodySizes AverageSizes(double stature_mm) {
@@ -81,32 +44,36 @@ BodySizes AverageSizes(double stature_mm) {
 BodyPlaces ReferencePoints(const BodySizes& s, const JointPlacement& placement) {
   const double top = s.torso / 2;
   BodyPlaces p;
-  const auto at = [&p](Point point) { return p.col(static_cast<int>(point)); };
-  at(Point::kTorso).setZero();
-  at(Point::kNeck) << -placement.neck_behind * s.torso, 0, top;
-  at(Point::kHead) = at(Point::kNeck);
-  at(Point::kHead) += Eigen::Vector3d(placement.head_forward * s.neck, 0, s.neck);
-  for (const Side& on : {kLeft, kRight}) {
-    at(on.shoulder) << -placement.shoulder_behind * s.torso, on.sign * s.shoulder_width / 2,
+  const auto middle = [&p](Point point) { return p.col(static_cast<int>(point)); };
+  middle(Point::kTorso).setZero();
+  middle(Point::kNeck) << -placement.neck_behind * s.torso, 0, top;
+  middle(Point::kHead) = middle(Point::kNeck);
+  middle(Point::kHead) += Eigen::Vector3d(placement.head_forward * s.neck, 0, s.neck);
+  for (const int right : {0, 1}) {
+    // A point of the right side follows that of the left.
+    const auto at = [&](Point left) { return p.col(static_cast<int>(left) + right); };
+    const double side = right ? -1 : 1;
+    at(Point::kShoulderL) << -placement.shoulder_behind * s.torso, side * s.shoulder_width / 2,
         top - placement.shoulder_below_neck * s.torso;
-    at(on.elbow) = at(on.shoulder);
-    at(on.elbow).y() += on.sign * s.upper_arm;
-    at(on.fingertips) = at(on.elbow);
-    at(on.fingertips).y() += on.sign * s.lower_arm;
-    at(on.hip) << -placement.hip_behind * s.torso, on.sign * s.hip_width / 2, -top;
-    at(on.knee) = at(on.hip);
-    at(on.knee).z() -= s.thigh;
-    at(on.foot) = at(on.knee);
-    at(on.foot).z() -= s.calf;
-    at(on.upper_arm) = (at(on.shoulder) + at(on.elbow)) / 2;
-    at(on.lower_arm) = (at(on.elbow) + at(on.fingertips)) / 2;
-    at(on.thigh) = (at(on.hip) + at(on.knee)) / 2;
-    at(on.calf) = (at(on.knee) + at(on.foot)) / 2;
-    at(on.clavicle) << at(on.shoulder).x(), on.sign * kClavicleAside * s.shoulder_width,
+    at(Point::kElbowL) = at(Point::kShoulderL);
+    at(Point::kElbowL).y() += side * s.upper_arm;
+    at(Point::kFingertipsL) = at(Point::kElbowL);
+    at(Point::kFingertipsL).y() += side * s.lower_arm;
+    at(Point::kHipL) << -placement.hip_behind * s.torso, side * s.hip_width / 2, -top;
+    at(Point::kKneeL) = at(Point::kHipL);
+    at(Point::kKneeL).z() -= s.thigh;
+    at(Point::kFootL) = at(Point::kKneeL);
+    at(Point::kFootL).z() -= s.calf;
+    at(Point::kUpperArmL) = (at(Point::kShoulderL) + at(Point::kElbowL)) / 2;
+    at(Point::kLowerArmL) = (at(Point::kElbowL) + at(Point::kFingertipsL)) / 2;
+    at(Point::kThighL) = (at(Point::kHipL) + at(Point::kKneeL)) / 2;
+    at(Point::kCalfL) = (at(Point::kKneeL) + at(Point::kFootL)) / 2;
+    at(Point::kClavicleL) << at(Point::kShoulderL).x(), side * kClavicleAside * s.shoulder_width,
         top - placement.clavicle_below_neck * s.torso;
-    at(on.wrist) = at(on.elbow) + kWristShare * (at(on.fingertips) - at(on.elbow));
-    at(on.ankle) = at(on.foot);
-    at(on.ankle).z() += kAnkleHeight * s.calf;
+    at(Point::kWristL) =
+        at(Point::kElbowL) + kWristShare * (at(Point::kFingertipsL) - at(Point::kElbowL));
+    at(Point::kAnkleL) = at(Point::kFootL);
+    at(Point::kAnkleL).z() += kAnkleHeight * s.calf;
   }
   return p;
 }

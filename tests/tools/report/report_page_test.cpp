@@ -56,7 +56,7 @@ TEST(Table, NamesAreTextAndOtherColumnsHaveDecimals) {
   EXPECT_EQ(BarTable("point", "mm", 1, {{"head", 2.5}})["rows"], Json::array({{"head", 2.5}}));
 }
 
-TEST(Rounded, NumbersAreShortAndUnknownOnesNull) {
+TEST(NumberOrNull, NumbersAreShortAndUnknownOnesNull) {
   EXPECT_EQ(NumberOrNull(1.23456).dump(), "1.235");
   EXPECT_TRUE(NumberOrNull(std::nan("")).is_null());
   EXPECT_TRUE(NumberOrNull(std::numeric_limits<double>::infinity()).is_null());
