@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <span>
 #include <utility>
 
@@ -47,6 +48,7 @@ void FollowLeap(Objective& objective, const Vector3& unforeseen_W, Hypothesis& h
 
 void HypothesisSet::Begin(std::vector<Hypothesis> hypotheses,
                           const std::optional<Vector3>& middle_W) {
+  removed_.clear();
   hypotheses_ = std::move(hypotheses);
   middle_W_ = middle_W;
   worth_ = kFrameWorth;
@@ -78,17 +80,18 @@ void HypothesisSet::Follow(Objective& objective, double dt_s) {
 void HypothesisSet::Vary(Objective& objective, Hypothesis& present, const PoseState& pose) {
   const double start = objective.At(present.body, pose, present.things).Sum();
   if (start > present.fitness.Sum() + kOdds.hopeless_nats) return;
-  offered_ = present;
-  offered_->Jump(objective, pose);
-  offered_->nats += worth_ * (offered_->fitness.Sum() - present.fitness.Sum());
-  if (offered_->nats < present.nats) {
+  Hypothesis offered = CopyOf(present);
+  offered.Jump(objective, pose);
+  offered.nats += worth_ * (offered.fitness.Sum() - present.fitness.Sum());
+  if (offered.nats < present.nats) {
     for (Hypothesis& one : hypotheses_)
       if (AreSame(one, present)) one.trials = 0;
     present.trials = 0;
   } else {
-    offered_->trials = 0;
+    offered.trials = 0;
   }
-  Offer(*offered_);
+  Offer(offered);
+  removed_.push_back(std::move(offered));
 }
 
 void HypothesisSet::Offer(const Hypothesis& hypothesis) {
@@ -96,7 +99,7 @@ void HypothesisSet::Offer(const Hypothesis& hypothesis) {
   const auto is_same = [&](const Hypothesis& other) { return AreSame(hypothesis, other); };
   const auto known = std::ranges::find_if(hypotheses_, is_same);
   if (known == hypotheses_.end()) {
-    hypotheses_.push_back(hypothesis);
+    hypotheses_.push_back(CopyOf(hypothesis));
   } else if (hypothesis.fitness.Sum() < known->fitness.Sum() &&
              FramesOf(hypothesis) >= FramesOf(*known)) {
     // What spoke against the pose so far still does.
@@ -124,7 +127,7 @@ void HypothesisSet::Merge() {
       Hypothesis &a = hypotheses_[i], &b = hypotheses_[j];
       if (!AreSame(a, b)) continue;
       if (b.nats < a.nats) std::swap(a, b);
-      hypotheses_.erase(hypotheses_.begin() + static_cast<std::ptrdiff_t>(j));
+      Remove(j, j + 1);
     }
   }
 }
@@ -134,15 +137,30 @@ void HypothesisSet::Drop() {
             [](const Hypothesis& a, const Hypothesis& b) {
               return std::pair(a.trials == 0, a.nats) < std::pair(b.trials == 0, b.nats);
             });
-  if (hypotheses_.size() > kOdds.most)
-    hypotheses_.erase(hypotheses_.begin() + kOdds.most, hypotheses_.end());
+  if (hypotheses_.size() > kOdds.most) Remove(kOdds.most, hypotheses_.size());
   const double likeliest = std::ranges::min_element(hypotheses_, {}, &Hypothesis::nats)->nats;
   for (Hypothesis& hypothesis : hypotheses_) hypothesis.nats -= likeliest;
-  const auto is_improbable = [](const Hypothesis& one) {
-    return (one.trials == 0 && one.nats > std::log(kOdds.drop)) || !one.filter.is_sound();
+  for (std::size_t i = hypotheses_.size() - 1; i > 0; --i) {
+    const Hypothesis& one = hypotheses_[i];
+    const bool is_improbable = one.trials == 0 && one.nats > std::log(kOdds.drop);
+    if (is_improbable || !one.filter.is_sound()) Remove(i, i + 1);
+  }
+}
+
+Hypothesis HypothesisSet::CopyOf(const Hypothesis& one) {
+  if (removed_.empty()) return one;
+  Hypothesis copy = std::move(removed_.back());
+  removed_.pop_back();
+  copy = one;
+  return copy;
+}
+
+void HypothesisSet::Remove(std::size_t begin, std::size_t end) {
+  const auto at = [&](std::size_t i) {
+    return hypotheses_.begin() + static_cast<std::ptrdiff_t>(i);
   };
-  hypotheses_.erase(std::remove_if(hypotheses_.begin() + 1, hypotheses_.end(), is_improbable),
-                    hypotheses_.end());
+  std::move(at(begin), at(end), std::back_inserter(removed_));
+  hypotheses_.erase(at(begin), at(end));
 }
 
 double HypothesisSet::ProbabilityOf(const Hypothesis& one) const {

@@ -54,12 +54,15 @@ class HypothesisSet {
   int changes() const { return changes_; }
 
  private:
+  /// Copies a hypothesis into the memory of one that was removed.
+  Hypothesis CopyOf(const Hypothesis& one);
+  void Remove(std::size_t begin, std::size_t end);
   void Merge();
   void Drop();
 
   std::vector<Hypothesis> hypotheses_;  ///< The first is believed.
   std::optional<Vector3> middle_W_;     ///< Of the voxels of the previous frame.
-  std::optional<Hypothesis> offered_;   ///< Only to reuse its memory.
+  std::vector<Hypothesis> removed_;     ///< Only to reuse their memory.
   double worth_ = kFrameWorth;
   int changes_ = 0;
 };

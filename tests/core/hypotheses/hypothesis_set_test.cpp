@@ -6,6 +6,7 @@
 #include <cmath>
 #include <vector>
 
+#include "tests/support/allocation_counter.h"
 #include "tests/support/fitted_body.h"
 #include "tests/support/voxelized_shapes.h"
 
@@ -65,6 +66,24 @@ class Odds : public FittedBody {
   const PoseState ahead_ = Standing({});
   Hypothesis believed_{body_, ahead_, false};
 };
+
+TEST_F(Odds, RivalsThatComeAndGoReuseMemory) {
+  if (!kCountsAllocations) GTEST_SKIP() << "the sanitizer allocates by itself";
+  HypothesisSet set = SetWith({});
+  const Hypothesis rival = Aside(500, 0.1);
+  const auto come_and_go = [&] {
+    set.Offer(rival);
+    ASSERT_EQ(set.all().size(), 2u);
+    set.all().back().nats = std::log(1001);
+    set.Judge();
+    ASSERT_EQ(set.all().size(), 1u);
+  };
+  for (int i = 0; i < 3; ++i) come_and_go();
+  const std::int64_t before = Allocations();
+  EXPECT_GT(before, 0);
+  come_and_go();
+  EXPECT_EQ(Allocations() - before, 0);
+}
 
 TEST_F(Odds, OfNineteenToOneChangeTheMind) {
   EXPECT_TRUE(IsAside(SetWith({Aside(500, -std::log(18.9))}), 0));
