@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iterator>
 #include <span>
 #include <utility>
 
@@ -48,7 +47,6 @@ void FollowLeap(Objective& objective, const Vector3& unforeseen_W, Hypothesis& h
 
 void HypothesisSet::Begin(std::vector<Hypothesis> hypotheses,
                           const std::optional<Vector3>& middle_W) {
-  removed_.clear();
   hypotheses_ = std::move(hypotheses);
   middle_W_ = middle_W;
   worth_ = kFrameWorth;
@@ -80,7 +78,13 @@ void HypothesisSet::Follow(Objective& objective, double dt_s) {
 void HypothesisSet::Vary(Objective& objective, Hypothesis& present, const PoseState& pose) {
   const double start = objective.At(present.body, pose, present.things).Sum();
   if (start > present.fitness.Sum() + kOdds.hopeless_nats) return;
-  Hypothesis offered = CopyOf(present);
+  if (removed_.empty()) {
+    removed_.push_back(present);
+  } else {
+    removed_.back() = present;
+  }
+  Hypothesis offered = std::move(removed_.back());
+  removed_.pop_back();
   offered.Jump(objective, pose);
   offered.nats += worth_ * (offered.fitness.Sum() - present.fitness.Sum());
   if (offered.nats < present.nats) {
@@ -90,22 +94,23 @@ void HypothesisSet::Vary(Objective& objective, Hypothesis& present, const PoseSt
   } else {
     offered.trials = 0;
   }
-  Offer(offered);
-  removed_.push_back(std::move(offered));
+  Offer(std::move(offered));
 }
 
-void HypothesisSet::Offer(const Hypothesis& hypothesis) {
+void HypothesisSet::Offer(Hypothesis hypothesis) {
   if (!hypothesis.filter.is_sound()) return;
   const auto is_same = [&](const Hypothesis& other) { return AreSame(hypothesis, other); };
   const auto known = std::ranges::find_if(hypotheses_, is_same);
   if (known == hypotheses_.end()) {
-    hypotheses_.push_back(CopyOf(hypothesis));
-  } else if (hypothesis.fitness.Sum() < known->fitness.Sum() &&
-             FramesOf(hypothesis) >= FramesOf(*known)) {
-    // What spoke against the pose so far still does.
-    const double nats = known->nats;
-    *known = hypothesis;
-    known->nats = nats;
+    hypotheses_.push_back(std::move(hypothesis));
+  } else {
+    if (hypothesis.fitness.Sum() < known->fitness.Sum() &&
+        FramesOf(hypothesis) >= FramesOf(*known)) {
+      std::swap(*known, hypothesis);
+      // What spoke against the pose so far still does.
+      std::swap(known->nats, hypothesis.nats);
+    }
+    Keep(std::move(hypothesis));
   }
   Judge();
 }
@@ -127,7 +132,7 @@ void HypothesisSet::Merge() {
       Hypothesis &a = hypotheses_[i], &b = hypotheses_[j];
       if (!AreSame(a, b)) continue;
       if (b.nats < a.nats) std::swap(a, b);
-      Remove(j, j + 1);
+      Remove(j);
     }
   }
 }
@@ -137,30 +142,23 @@ void HypothesisSet::Drop() {
             [](const Hypothesis& a, const Hypothesis& b) {
               return std::pair(a.trials == 0, a.nats) < std::pair(b.trials == 0, b.nats);
             });
-  if (hypotheses_.size() > kOdds.most) Remove(kOdds.most, hypotheses_.size());
+  while (hypotheses_.size() > kOdds.most) Remove(hypotheses_.size() - 1);
   const double likeliest = std::ranges::min_element(hypotheses_, {}, &Hypothesis::nats)->nats;
   for (Hypothesis& hypothesis : hypotheses_) hypothesis.nats -= likeliest;
   for (std::size_t i = hypotheses_.size() - 1; i > 0; --i) {
     const Hypothesis& one = hypotheses_[i];
     const bool is_improbable = one.trials == 0 && one.nats > std::log(kOdds.drop);
-    if (is_improbable || !one.filter.is_sound()) Remove(i, i + 1);
+    if (is_improbable || !one.filter.is_sound()) Remove(i);
   }
 }
 
-Hypothesis HypothesisSet::CopyOf(const Hypothesis& one) {
-  if (removed_.empty()) return one;
-  Hypothesis copy = std::move(removed_.back());
-  removed_.pop_back();
-  copy = one;
-  return copy;
+void HypothesisSet::Keep(Hypothesis removed) {
+  if (removed_.size() < kOdds.most) removed_.push_back(std::move(removed));
 }
 
-void HypothesisSet::Remove(std::size_t begin, std::size_t end) {
-  const auto at = [&](std::size_t i) {
-    return hypotheses_.begin() + static_cast<std::ptrdiff_t>(i);
-  };
-  std::move(at(begin), at(end), std::back_inserter(removed_));
-  hypotheses_.erase(at(begin), at(end));
+void HypothesisSet::Remove(std::size_t i) {
+  Keep(std::move(hypotheses_[i]));
+  hypotheses_.erase(hypotheses_.begin() + static_cast<std::ptrdiff_t>(i));
 }
 
 double HypothesisSet::ProbabilityOf(const Hypothesis& one) const {

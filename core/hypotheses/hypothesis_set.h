@@ -35,7 +35,7 @@ class HypothesisSet {
   void Vary(Objective& objective, Hypothesis& present, const PoseState& pose);
   /// Adds a hypothesis that was fitted to this frame. One that is a known pose keeps what spoke
   /// against that.
-  void Offer(const Hypothesis& hypothesis);
+  void Offer(Hypothesis hypothesis);
   /// Merges, drops, and believes another one if its odds are 19 to 1.
   void Judge();
 
@@ -54,15 +54,14 @@ class HypothesisSet {
   int changes() const { return changes_; }
 
  private:
-  /// Copies a hypothesis into the memory of one that was removed.
-  Hypothesis CopyOf(const Hypothesis& one);
-  void Remove(std::size_t begin, std::size_t end);
+  void Keep(Hypothesis removed);
+  void Remove(std::size_t i);
   void Merge();
   void Drop();
 
   std::vector<Hypothesis> hypotheses_;  ///< The first is believed.
   std::optional<Vector3> middle_W_;     ///< Of the voxels of the previous frame.
-  std::vector<Hypothesis> removed_;     ///< Only to reuse their memory.
+  std::vector<Hypothesis> removed_;     ///< A few, only to reuse their memory.
   double worth_ = kFrameWorth;
   int changes_ = 0;
 };

@@ -70,9 +70,10 @@ class Odds : public FittedBody {
 TEST_F(Odds, RivalsThatComeAndGoReuseMemory) {
   if (!kCountsAllocations) GTEST_SKIP() << "the sanitizer allocates by itself";
   HypothesisSet set = SetWith({});
-  const Hypothesis rival = Aside(500, 0.1);
+  Hypothesis present = believed_;
+  const PoseState elsewhere = Aside(500, 0).filter.pose();
   const auto come_and_go = [&] {
-    set.Offer(rival);
+    set.Vary(blind_, present, elsewhere);
     ASSERT_EQ(set.all().size(), 2u);
     set.all().back().nats = std::log(1001);
     set.Judge();
