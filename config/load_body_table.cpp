@@ -47,7 +47,7 @@ JointAxis ReadJoint(TomlSection& section, const std::vector<JointAxis>& joints) 
   joint.parent = FindJoint(section, "parent", joints);
   joint.axis_T = ReadDirection(section, "axis");
   std::vector<std::string> places(kPointNames.begin(), kPointNames.end());
-  places.insert(places.end(), kMoreJointNames.begin(), kMoreJointNames.end());
+  places.insert(places.end(), kFurtherPointNames.begin(), kFurtherPointNames.end());
   joint.at = static_cast<Point>(section.Choice("at", places));
   const std::vector<double> limits_deg = section.Numbers("limits_deg", 2);
   if (!(limits_deg[0] < limits_deg[1] && limits_deg[0] >= -360 && limits_deg[1] <= 360)) {

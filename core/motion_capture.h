@@ -4,6 +4,7 @@
 #include <Eigen/Geometry>
 #include <array>
 #include <cstdint>
+#include <limits>
 #include <optional>
 #include <span>
 #include <vector>
@@ -44,6 +45,7 @@ struct Observation {
 };
 
 using PointStds = Eigen::Matrix<double, 1, kPointCount>;
+using FurtherStds = Eigen::Matrix<double, 1, kFurtherPointCount>;
 
 /// Another pose that a person may have.
 struct RivalPose {
@@ -59,6 +61,9 @@ struct CaptureResult {
   BodyPoints points_W = BodyPoints::Zero();
   /// Standard deviation of each, along its worst axis [mm].
   PointStds point_std_mm = PointStds::Zero();
+  /// The points that follow the 23, and their deviations; NaN: the body does not have them apart.
+  FurtherPoints further_W = FurtherPoints::Constant(std::numeric_limits<double>::quiet_NaN());
+  FurtherStds further_std_mm = FurtherStds::Constant(std::numeric_limits<double>::quiet_NaN());
   /// Of the pose, 0 to 1. Empty: nobody is there, or the tracker cannot tell.
   std::optional<double> probability;
   std::optional<RivalPose> rival;  ///< The likeliest of the other poses, if there are any.

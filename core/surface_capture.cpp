@@ -37,12 +37,17 @@ constexpr StateLimits kLimits{};
 // to 100 % of the errors of people like ours are within two deviations (`mocap evaluate`).
 constexpr double kBodyStd_mm = 15;
 
-// Computes the covariance of a point of the body from that of the joints that move it.
-Matrix3 CovarianceOf(const BodyModel& body, const Posture& posture, Point point,
-                     const Vector3& p_WQ, const PoseCovariance& pose) {
+// Standard deviation of a point along its worst axis, from those of the joints that move it [mm].
+// NaN for a point that the body does not have.
+double DeviationOf(const BodyModel& body, const Posture& posture, Point point, const Vector3& p_WQ,
+                   const PoseCovariance& pose) {
+  if (!p_WQ.allFinite()) return std::nan("");
   Eigen::Matrix<double, 3, Eigen::Dynamic, Eigen::ColMajor, 3, kMaxDof> J(3, body.dof());
   body.PointJacobian(posture, body.CarrierOf(point), p_WQ, J);
-  return J * pose * J.transpose();
+  const Matrix3 covariance = J * pose * J.transpose();
+  Eigen::SelfAdjointEigenSolver<Matrix3> axes;
+  axes.computeDirect(covariance, Eigen::EigenvaluesOnly);
+  return std::sqrt(std::max(0.0, axes.eigenvalues().maxCoeff()) / kFrameWorth);
 }
 
 class SurfaceCapture : public MotionCapture {
@@ -213,7 +218,10 @@ class SurfaceCapture : public MotionCapture {
     if (result_.state != CaptureState::kTracking) steady_.Reset();
     result_.pose = steady_.Follow(body, filter, result_.point_std_mm, dt_s);
     for (double& std_mm : result_.point_std_mm) std_mm = std::hypot(std_mm, kBodyStd_mm);
-    result_.points_W = body.PointsAt(body.PostureAt(result_.pose));
+    for (double& std_mm : result_.further_std_mm) std_mm = std::hypot(std_mm, kBodyStd_mm);
+    const Posture posture = body.PostureAt(result_.pose);
+    result_.points_W = body.PointsAt(posture);
+    result_.further_W = body.FurtherPointsAt(posture);
     result_.residual_mm = hypotheses_.best().fitness.surface_mm;
     if (result_.state != CaptureState::kLost) ReportDoubt();
   }
@@ -229,13 +237,14 @@ class SurfaceCapture : public MotionCapture {
   void MeasureUncertainty(const BodyModel& body, const PoseFilter& filter) {
     const Posture posture = body.PostureAt(filter.pose());
     const BodyPoints points_W = body.PointsAt(posture);
-    for (int i = 0; i < kPointCount; ++i) {
-      const Matrix3 covariance =
-          CovarianceOf(body, posture, static_cast<Point>(i), points_W.col(i), filter.covariance());
-      Eigen::SelfAdjointEigenSolver<Matrix3> axes;
-      axes.computeDirect(covariance, Eigen::EigenvaluesOnly);
+    const FurtherPoints further_W = body.FurtherPointsAt(posture);
+    for (int i = 0; i < kPointCount; ++i)
       result_.point_std_mm[i] =
-          std::sqrt(std::max(0.0, axes.eigenvalues().maxCoeff()) / kFrameWorth);
+          DeviationOf(body, posture, static_cast<Point>(i), points_W.col(i), filter.covariance());
+    for (int i = 0; i < kFurtherPointCount; ++i) {
+      const auto point = static_cast<Point>(kPointCount + i);
+      result_.further_std_mm[i] =
+          DeviationOf(body, posture, point, further_W.col(i), filter.covariance());
     }
   }
 

@@ -9,6 +9,7 @@
 #include "tools/doctor.h"
 #include "tools/evaluate.h"
 #include "tools/export.h"
+#include "tools/gait.h"
 #include "tools/gige_studio.h"
 #include "tools/simulate.h"
 #include "tools/stream.h"
@@ -24,6 +25,7 @@ void AddCommands(CLI::App& app) {
   AddTakeCommand(app);
   AddTrackCommand(app);
   AddEvaluateCommand(app);
+  AddGaitCommand(app);
   AddExportCommand(app);
   AddBenchmarkCommand(app);
   AddCalibrateCommand(app);

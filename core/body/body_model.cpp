@@ -1,5 +1,6 @@
 #include "core/body/body_model.h"
 
+#include <cmath>
 #include <utility>
 
 #include "core/errors.h"
@@ -7,20 +8,24 @@
 namespace mocap {
 namespace {
 
-constexpr std::array<Segment, kPointCount> kSegmentOfPoint = {
+constexpr std::array<Segment, kPlaceCount> kSegmentOfPoint = {
     Segment::kTorso,     Segment::kHead,   Segment::kUpperArmL, Segment::kUpperArmR,
     Segment::kThighL,    Segment::kThighR, Segment::kLowerArmL, Segment::kLowerArmR,
     Segment::kCalfL,     Segment::kCalfR,  Segment::kTorso,     Segment::kShoulderL,
     Segment::kShoulderR, Segment::kPelvis, Segment::kPelvis,    Segment::kUpperArmL,
     Segment::kUpperArmR, Segment::kHandL,  Segment::kHandR,     Segment::kThighL,
-    Segment::kThighR,    Segment::kCalfL,  Segment::kCalfR};
+    Segment::kThighR,    Segment::kCalfL,  Segment::kCalfR,     Segment::kTorso,
+    Segment::kTorso,     Segment::kHandL,  Segment::kHandR,     Segment::kFootL,
+    Segment::kFootR,     Segment::kFootL,  Segment::kFootR,     Segment::kFootL,
+    Segment::kFootR,     Segment::kFootL,  Segment::kFootR,     Segment::kHandL,
+    Segment::kHandR};
 
 }  // namespace
 
 BodyModel::BodyModel(BodyTable table, const BodySizes& sizes) : table_(std::move(table)) {
   MOCAP_CHECK(table_.joints.size() <= static_cast<std::size_t>(kMaxJoints));
   for (int i = 0; i < joint_count(); ++i) MOCAP_CHECK(table_.joints[i].parent < i);
-  for (int i = 0; i < kPointCount; ++i) {
+  for (int i = 0; i < kPlaceCount; ++i) {
     point_carrier_[i] = table_.carrier[static_cast<int>(kSegmentOfPoint[i])];
   }
   Resize(sizes);
@@ -62,14 +67,44 @@ void BodyModel::PoseShape(const Posture& posture, std::vector<PosedCapsule>& pos
   }
 }
 
+Vector3 BodyModel::PlaceOf(Point point, const Posture& posture) const {
+  const int carrier = CarrierOf(point);
+  return (carrier < 0 ? posture.X_WT : posture.X_W[carrier]) *
+         reference_points_T_.col(static_cast<int>(point));
+}
+
 BodyPoints BodyModel::PointsAt(const Posture& posture) const {
   BodyPoints points_W;
-  for (int i = 0; i < kPointCount; ++i) {
-    const int carrier = point_carrier_[i];
-    points_W.col(i) =
-        (carrier < 0 ? posture.X_WT : posture.X_W[carrier]) * reference_points_T_.col(i);
+  for (int i = 0; i < kPointCount; ++i) points_W.col(i) = PlaceOf(static_cast<Point>(i), posture);
+  return points_W;
+}
+
+FurtherPoints BodyModel::FurtherPointsAt(const Posture& posture) const {
+  FurtherPoints points_W;
+  for (int i = 0; i < kFurtherPointCount; ++i) {
+    const auto point = static_cast<Point>(kPointCount + i);
+    const bool is_moved = MovesApart(point);
+    points_W.col(i) = is_moved ? PlaceOf(point, posture) : Vector3::Constant(std::nan(""));
   }
   return points_W;
+}
+
+bool BodyModel::MovesApart(Point further) const {
+  const auto carrier = [this](Segment segment) {
+    return table_.carrier[static_cast<int>(segment)];
+  };
+  switch (kSegmentOfPoint[static_cast<int>(further)]) {
+    case Segment::kHandL:
+      return carrier(Segment::kHandL) != carrier(Segment::kLowerArmL);
+    case Segment::kHandR:
+      return carrier(Segment::kHandR) != carrier(Segment::kLowerArmR);
+    case Segment::kFootL:
+      return carrier(Segment::kFootL) != carrier(Segment::kCalfL);
+    case Segment::kFootR:
+      return carrier(Segment::kFootR) != carrier(Segment::kCalfR);
+    default:
+      return carrier(Segment::kShoulderL) != carrier(Segment::kTorso);
+  }
 }
 
 void BodyModel::PointJacobian(

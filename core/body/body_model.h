@@ -40,7 +40,7 @@ class BodyModel {
   /// Replaces the sizes; the chain stays the same.
   void Resize(const BodySizes& sizes);
 
-  /// The 23 points and the further joints at the reference configuration, p_TQ; 3 × 29 [mm].
+  /// All points at the reference configuration, p_TQ; 3 × 37 [mm].
   const BodyPlaces& reference_points_T() const { return reference_points_T_; }
   /// The capsules at the reference configuration.
   const std::vector<Capsule>& shape() const { return shape_; }
@@ -56,6 +56,9 @@ class BodyModel {
   void PoseShape(const Posture& posture, std::vector<PosedCapsule>& posed) const;
   /// Predicts the positions of the 23 points; 3 × 23, column i is p_WQ of point i [mm]. Eq. (13).
   BodyPoints PointsAt(const Posture& posture) const;
+  /// Predicts the points that follow the 23, likewise. NaN for those of a hand, a foot or a
+  /// shoulder girdle that the table does not move by itself.
+  FurtherPoints FurtherPointsAt(const Posture& posture) const;
   /// Differentiates a point by a PoseStep; the point is fixed to the segment that axis `carrier`
   /// moves. Eqs. (17)–(21).
   /// @param p_WQ  current position of the point.
@@ -72,13 +75,16 @@ class BodyModel {
   PaperState PaperStateOf(const PoseState& pose) const;
 
  private:
+  Vector3 PlaceOf(Point point, const Posture& posture) const;
+  /// Whether the segment of a point that follows the 23 turns against its neighbour.
+  bool MovesApart(Point further) const;
   void PlaceAxis(const PoseState& pose, int row, Posture& posture) const;
 
   BodyTable table_;
   BodySizes sizes_;
   BodyPlaces reference_points_T_;
   std::vector<Capsule> shape_;
-  std::array<int, kPointCount> point_carrier_{};
+  std::array<int, kPlaceCount> point_carrier_{};
 };
 
 }  // namespace mocap

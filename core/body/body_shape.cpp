@@ -141,7 +141,7 @@ class ShapeBuilder {
     Drape(s.drape_knee, s.drape_calf);
     Add(leg.lower, leg.lower_segment, belly, ankle, 1.1 * calf_radius, 0.7 * calf_radius);
     Drape(s.drape_calf, s.drape_ankle);
-    const double length = 0.152 * s.Stature();
+    const double length = s.FootLength();
     const double breadth = 0.055 * s.Stature();
     const double heel_radius = 0.38 * breadth;
     const double ball_radius = 0.3 * breadth;

@@ -8,6 +8,13 @@ namespace {
 constexpr double kClavicleAside = 0.07;
 constexpr double kWristShare = 0.575;
 constexpr double kAnkleHeight = 0.137;
+// The knuckles, of the hand (de Leva 1996: 86 of 188 mm).
+constexpr double kKnucklesShare = 0.46;
+// Heel, ball and toe before the ankle, and above the sole, of the foot's length. The heel's bone
+// ends 49 mm behind the ankle (Rajagopal et al. 2016), its flesh a quarter of the foot behind it;
+// the ball lies 0.73 of the foot before the heel (ANSUR, Gordon et al. 1989).
+constexpr double kHeelShare = -0.25, kBallShare = 0.48, kToeShare = 0.75;
+constexpr double kFootBoneHeight = 0.08;
 
 }  // namespace
 
@@ -55,25 +62,32 @@ BodyPlaces ReferencePoints(const BodySizes& s, const JointPlacement& placement) 
     const double side = right ? -1 : 1;
     at(Point::kShoulderL) << -placement.shoulder_behind * s.torso, side * s.shoulder_width / 2,
         top - placement.shoulder_below_neck * s.torso;
-    at(Point::kElbowL) = at(Point::kShoulderL);
-    at(Point::kElbowL).y() += side * s.upper_arm;
-    at(Point::kFingertipsL) = at(Point::kElbowL);
-    at(Point::kFingertipsL).y() += side * s.lower_arm;
-    at(Point::kHipL) << -placement.hip_behind * s.torso, side * s.hip_width / 2, -top;
-    at(Point::kKneeL) = at(Point::kHipL);
-    at(Point::kKneeL).z() -= s.thigh;
-    at(Point::kFootL) = at(Point::kKneeL);
-    at(Point::kFootL).z() -= s.calf;
-    at(Point::kUpperArmL) = (at(Point::kShoulderL) + at(Point::kElbowL)) / 2;
-    at(Point::kLowerArmL) = (at(Point::kElbowL) + at(Point::kFingertipsL)) / 2;
-    at(Point::kThighL) = (at(Point::kHipL) + at(Point::kKneeL)) / 2;
-    at(Point::kCalfL) = (at(Point::kKneeL) + at(Point::kFootL)) / 2;
-    at(Point::kClavicleL) << at(Point::kShoulderL).x(), side * kClavicleAside * s.shoulder_width,
+    const Eigen::Vector3d shoulder = at(Point::kShoulderL);
+    const Eigen::Vector3d elbow = shoulder + Eigen::Vector3d(0, side * s.upper_arm, 0);
+    const Eigen::Vector3d tips = elbow + Eigen::Vector3d(0, side * s.lower_arm, 0);
+    const Eigen::Vector3d wrist = elbow + kWristShare * (tips - elbow);
+    at(Point::kElbowL) = elbow;
+    at(Point::kFingertipsL) = tips;
+    at(Point::kUpperArmL) = (shoulder + elbow) / 2;
+    at(Point::kLowerArmL) = (elbow + tips) / 2;
+    at(Point::kWristL) = wrist;
+    at(Point::kKnucklesL) = wrist + kKnucklesShare * (tips - wrist);
+    at(Point::kClavicleL) << shoulder.x(), side * kClavicleAside * s.shoulder_width,
         top - placement.clavicle_below_neck * s.torso;
-    at(Point::kWristL) =
-        at(Point::kElbowL) + kWristShare * (at(Point::kFingertipsL) - at(Point::kElbowL));
-    at(Point::kAnkleL) = at(Point::kFootL);
-    at(Point::kAnkleL).z() += kAnkleHeight * s.calf;
+
+    const Eigen::Vector3d hip(-placement.hip_behind * s.torso, side * s.hip_width / 2, -top);
+    const Eigen::Vector3d knee = hip - Eigen::Vector3d(0, 0, s.thigh);
+    const Eigen::Vector3d sole = knee - Eigen::Vector3d(0, 0, s.calf);
+    at(Point::kHipL) = hip;
+    at(Point::kKneeL) = knee;
+    at(Point::kFootL) = sole;
+    at(Point::kThighL) = (hip + knee) / 2;
+    at(Point::kCalfL) = (knee + sole) / 2;
+    at(Point::kAnkleL) = sole + Eigen::Vector3d(0, 0, kAnkleHeight * s.calf);
+    const double foot = s.FootLength();
+    at(Point::kHeelL) = sole + foot * Eigen::Vector3d(kHeelShare, 0, kFootBoneHeight);
+    at(Point::kBallL) = sole + foot * Eigen::Vector3d(kBallShare, 0, kFootBoneHeight);
+    at(Point::kToeL) = sole + foot * Eigen::Vector3d(kToeShare, 0, kFootBoneHeight);
   }
   return p;
 }

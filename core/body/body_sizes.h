@@ -39,6 +39,9 @@ struct BodySizes {
   /// Height from sole to vertex when standing upright.
   double Stature() const { return calf + thigh + torso + neck + head / 2; }
 
+  /// From heel to toe: Winter 2009, Fig. 4.1.
+  double FootLength() const { return 0.152 * Stature(); }
+
   bool operator==(const BodySizes&) const = default;
 };
 
@@ -64,7 +67,10 @@ BodySizes AverageSizes(double stature_mm);
 
 using BodyPoints = Eigen::Matrix<double, 3, kPointCount>;
 
-/// The 23 points and the joints that follow them.
+/// The points that follow the 23.
+using FurtherPoints = Eigen::Matrix<double, 3, kFurtherPointCount>;
+
+/// All points.
 using BodyPlaces = Eigen::Matrix<double, 3, kPlaceCount>;
 
 /// Offsets of the joints behind the middle of the trunk and below the neck, as shares of the
@@ -86,7 +92,7 @@ struct JointPlacement {
   double head_forward = 0.316;
 };
 
-/// Computes points and joints at the reference configuration, in the torso's frame; 3 × 29, column
+/// Computes points and joints at the reference configuration, in the torso's frame; 3 × 37, column
 /// i is p_TQ of point i [mm]. Mikić et al. 2003, Fig. 3 and Table 2.
 BodyPlaces ReferencePoints(const BodySizes& sizes, const JointPlacement& placement);
 

@@ -91,15 +91,21 @@ void AssignPoint(const Column& p_W, std::vector<double>& to_mm) {
   to_mm.assign({p_W[0], p_W[1], p_W[2]});
 }
 
-void FillPoints(const CaptureResult& result, int count, person_details_t& message) {
+void FillPoints(const CaptureResult& result, bool has_pose, person_details_t& message) {
+  const int count = has_pose ? kPlaceCount : 0;
   message.num_points = count;
   message.point_name.resize(count);
   message.point_mm.resize(count);
   message.point_std_mm.resize(count);
-  for (int i = 0; i < count; ++i) {
+  for (int i = 0; i < std::min(count, kPointCount); ++i) {
     message.point_name[i] = kPointNames[i];
     AssignPoint(result.points_W.col(i), message.point_mm[i]);
     message.point_std_mm[i] = result.point_std_mm[i];
+  }
+  for (int i = kPointCount; i < count; ++i) {
+    message.point_name[i] = kFurtherPointNames[i - kPointCount];
+    AssignPoint(result.further_W.col(i - kPointCount), message.point_mm[i]);
+    message.point_std_mm[i] = result.further_std_mm[i - kPointCount];
   }
 }
 
@@ -144,7 +150,7 @@ void FillDetails(const TrackedSet& set, std::size_t place, person_details_t& mes
   message.place = static_cast<std::int32_t>(place);
   message.state = static_cast<std::int8_t>(result.state);
   message.probability = has_pose ? result.probability.value_or(std::nan("")) : std::nan("");
-  FillPoints(result, has_pose ? kPointCount : 0, message);
+  FillPoints(result, has_pose, message);
   FillJoints(result.pose, body.table(), has_pose ? body.joint_count() : 0, message);
   message.num_contacts = 0;
   message.contact_name.clear();

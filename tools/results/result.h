@@ -27,6 +27,9 @@ struct PoseRow {
   BodyPoints points_W = BodyPoints::Zero();  ///< p_WQ of the 23 points, after the filter [mm].
   /// Standard deviation of each, along its worst axis [mm]; NaN: not known.
   PointStds point_std_mm = PointStds::Constant(std::numeric_limits<double>::quiet_NaN());
+  /// The points that follow the 23, and their deviations; NaN: not known.
+  FurtherPoints further_W = FurtherPoints::Constant(std::numeric_limits<double>::quiet_NaN());
+  FurtherStds further_std_mm = FurtherStds::Constant(std::numeric_limits<double>::quiet_NaN());
   /// In the order of BodyRecord::joints; NaN: not known. Empty if it was measured for another body.
   JointAngles joint_rad = {};
   /// Of the pose, 0 to 1; NaN: not known.

@@ -1,5 +1,6 @@
 #include "tools/results/result_columns.h"
 
+#include <array>
 #include <cmath>
 
 #include "core/body/body_part.h"
@@ -7,6 +8,8 @@
 
 namespace mocap {
 namespace {
+
+constexpr std::array<const char*, 3> kAxisEndings = {"_x_mm", "_y_mm", "_z_mm"};
 
 double JointIn(const PoseRow& row, std::size_t place) {
   const auto joint = static_cast<Eigen::Index>(place);
@@ -17,12 +20,24 @@ void SetJointIn(PoseRow& row, std::size_t place, double rad) {
   row.joint_rad[static_cast<Eigen::Index>(place)] = rad;
 }
 
+// Of all points, with those that follow the 23.
 double DeviationIn(const PoseRow& row, std::size_t point) {
-  return row.point_std_mm[static_cast<Eigen::Index>(point)];
+  const auto i = static_cast<Eigen::Index>(point);
+  return i < kPointCount ? row.point_std_mm[i] : row.further_std_mm[i - kPointCount];
 }
 
 void SetDeviationIn(PoseRow& row, std::size_t point, double mm) {
-  row.point_std_mm[static_cast<Eigen::Index>(point)] = mm;
+  const auto i = static_cast<Eigen::Index>(point);
+  (i < kPointCount ? row.point_std_mm[i] : row.further_std_mm[i - kPointCount]) = mm;
+}
+
+// Of the points that follow the 23: x, y and z of each.
+double CoordinateIn(const PoseRow& row, std::size_t place) {
+  return row.further_W.reshaped()[static_cast<Eigen::Index>(place)];
+}
+
+void SetCoordinateIn(PoseRow& row, std::size_t place, double mm) {
+  row.further_W.reshaped()[static_cast<Eigen::Index>(place)] = mm;
 }
 
 double ProbabilityIn(const PoseRow& row, std::size_t) { return row.probability; }
@@ -39,8 +54,7 @@ std::vector<std::string> ResultColumns() {
       "torso_z_mm", "torso_axis_x", "torso_axis_y", "torso_axis_z", "torso_angle_rad"};
   for (int i = 1; i <= kPaperAngleCount; ++i) columns.push_back(PaperAngleColumn(i));
   for (const std::string_view point : kPointNames) {
-    for (const char* axis : {"_x_mm", "_y_mm", "_z_mm"})
-      columns.push_back(std::string(point) + axis);
+    for (const char* axis : kAxisEndings) columns.push_back(std::string(point) + axis);
   }
   columns.insert(columns.end(), {"residual_mm", "voxels"});
   return columns;
@@ -57,8 +71,15 @@ std::vector<FurtherColumn> FurtherColumns(const BodyRecord& body, ListedJoints j
                        .number = JointIn,
                        .set_number = SetJointIn});
   }
-  for (std::size_t i = 0; i < kPointNames.size(); ++i) {
-    columns.push_back({.name = DeviationColumn(kPointNames[i]),
+  for (std::size_t i = 0; i < 3 * kFurtherPointNames.size(); ++i) {
+    columns.push_back({.name = std::string(kFurtherPointNames[i / 3]) + kAxisEndings[i % 3],
+                       .place = i,
+                       .number = CoordinateIn,
+                       .set_number = SetCoordinateIn});
+  }
+  for (std::size_t i = 0; i < kPlaceCount; ++i) {
+    columns.push_back({.name = DeviationColumn(
+                           i < kPointCount ? kPointNames[i] : kFurtherPointNames[i - kPointCount]),
                        .place = i,
                        .number = DeviationIn,
                        .set_number = SetDeviationIn});

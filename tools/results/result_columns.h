@@ -32,7 +32,8 @@ struct FurtherColumn {
 
 /// Joints that have columns of their own.
 enum class ListedJoints { kBeyondPaper, kAll };
-/// All such columns in order: angles of joints, deviations of the 23 points, probability.
+/// All such columns in order: angles of joints, points that follow the 23, deviations of all
+/// points, probability.
 std::vector<FurtherColumn> FurtherColumns(const BodyRecord& body, ListedJoints joints);
 
 /// The column of a joint that is none of the paper's sixteen: <name>_rad.

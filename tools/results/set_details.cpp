@@ -15,8 +15,13 @@ bool IsShare(double number) { return number >= 0 && number <= 1; }
 
 /// Anyone may send.
 bool IsSound(const person_details_t& details) {
+  const auto is_told = [](double number) { return !std::isinf(number); };
+  const bool are_points = std::ranges::all_of(details.point_std_mm, is_told) &&
+                          std::ranges::all_of(details.point_mm, [&](const auto& point_mm) {
+                            return std::ranges::all_of(point_mm, is_told);
+                          });
   const bool is_probability = std::isnan(details.probability) || IsShare(details.probability);
-  return is_probability && IsShare(details.rival_probability) &&
+  return are_points && is_probability && IsShare(details.rival_probability) &&
          std::ranges::all_of(details.rival_point_mm, [](const std::vector<double>& point_mm) {
            return std::ranges::all_of(point_mm, [](double mm) { return std::isfinite(mm); });
          });
@@ -48,8 +53,16 @@ const person_details_t* SetDetails::OfFirst(std::int64_t utime) const {
   return found == of_set_.end() ? nullptr : &*found;
 }
 
-double ToldProbability(const person_details_t* details) {
-  return details ? details->probability : std::nan("");
+void TellDetails(const person_details_t* details, PoseRow& row) {
+  if (!details) return;
+  row.probability = details->probability;
+  for (int i = 0; i < kFurtherPointCount; ++i) {
+    const auto name = std::ranges::find(details->point_name, kFurtherPointNames[i]);
+    if (name == details->point_name.end()) continue;
+    const auto place = static_cast<std::size_t>(name - details->point_name.begin());
+    row.further_W.col(i) = Vector3(details->point_mm[place].data());
+    row.further_std_mm[i] = details->point_std_mm[place];
+  }
 }
 
 }  // namespace mocap

@@ -6,6 +6,8 @@
 #include <span>
 #include <vector>
 
+#include "tools/results/result.h"
+
 namespace mocap {
 
 /// Keeps the messages of the latest frame set. They come before the poses of the same set.
@@ -23,7 +25,8 @@ class SetDetails {
   std::vector<person_details_t> of_set_;  ///< Of the same utime.
 };
 
-/// The probability of the pose; NaN: not known, or no message.
-double ToldProbability(const person_details_t* details);
+/// Adds what a message tells beyond pose_t and person_t: the probability of the pose, and the
+/// points that follow the 23. @param details  null: no message.
+void TellDetails(const person_details_t* details, PoseRow& row);
 
 }  // namespace mocap

@@ -132,12 +132,10 @@ void PoseFeed::HandOn(const pose_t& pose, int person, const std::string& name) {
   if (body == bodies_.end() || body->second.num_joints != pose.num_joints || !IsSound(pose)) return;
   const person_details_t* const details =
       person == 0 ? details_.OfFirst(pose.utime) : details_.Of(pose.utime, person);
-  take_({.message = pose,
-         .is_tracked = true,
-         .body = &body->second,
-         .probability = ToldProbability(details),
-         .person = person,
-         .name = name});
+  StreamedPose streamed{
+      .message = pose, .is_tracked = true, .body = &body->second, .person = person, .name = name};
+  TellDetails(details, streamed.told);
+  take_(streamed);
 }
 
 }  // namespace mocap

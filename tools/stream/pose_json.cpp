@@ -43,6 +43,17 @@ void AddPose(const pose_t& pose, const body_t& body, Json& json) {
   json["residual_mm"] = Mm(pose.residual_mm);
 }
 
+void AddTold(const PoseRow& told, Json& json) {
+  for (int i = 0; i < kFurtherPointCount; ++i) {
+    const Vector3 p_W = told.further_W.col(i);
+    if (!p_W.allFinite()) continue;
+    const std::string name(kFurtherPointNames[i]);
+    json["points_mm"][name] = {Mm(p_W.x()), Mm(p_W.y()), Mm(p_W.z())};
+    json["points_std_mm"][name] = Mm(told.further_std_mm[i]);
+  }
+  if (!std::isnan(told.probability)) json["probability"] = RoundedTo(told.probability, 1e4);
+}
+
 }  // namespace
 
 std::string PoseJson(const StreamedPose& pose) {
@@ -54,8 +65,10 @@ std::string PoseJson(const StreamedPose& pose) {
     json["person"] = pose.person;
     json["name"] = pose.name;
   }
-  if (pose.is_tracked) AddPose(pose.message, *pose.body, json);
-  if (!std::isnan(pose.probability)) json["probability"] = RoundedTo(pose.probability, 1e4);
+  if (pose.is_tracked) {
+    AddPose(pose.message, *pose.body, json);
+    AddTold(pose.told, json);
+  }
   return JsonText(json);
 }
 

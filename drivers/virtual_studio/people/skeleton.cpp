@@ -7,6 +7,11 @@
 namespace mocap::simulation {
 namespace {
 
+// The toes above the sole, of the stature.
+constexpr double kToeHeight = 0.012;
+// The knuckles, of the hand (de Leva 1996: 86 of 188 mm).
+constexpr double kKnucklesShare = 0.46;
+
 Matrix3 TurnX(double a) { return Eigen::AngleAxisd(a, Vector3::UnitX()).toRotationMatrix(); }
 Matrix3 TurnY(double a) { return Eigen::AngleAxisd(a, Vector3::UnitY()).toRotationMatrix(); }
 Matrix3 TurnZ(double a) { return Eigen::AngleAxisd(a, Vector3::UnitZ()).toRotationMatrix(); }
@@ -67,8 +72,9 @@ void PlaceLegBones(const Anthropometry& body, const LegAngles& leg, int side, Bo
                      Vector3(0, 0, -body.shank_mm)};
   bones[kToesL + side] =
       bones[kFootL + side] *
-      RigidTransform{TurnY(-leg.toes),
-                     Vector3(body.ball_mm, 0, -body.ankle_to_sole_mm + 0.012 * body.stature_mm)};
+      RigidTransform{
+          TurnY(-leg.toes),
+          Vector3(body.ball_mm, 0, -body.ankle_to_sole_mm + kToeHeight * body.stature_mm)};
 }
 
 }  // namespace
@@ -116,6 +122,12 @@ TruePoints PointsOf(const Anthropometry& body, const BonePoses& bones) {
     set(TruthPoint::kAnkleL, side, bones[kFootL + side].p);
     const double toe_mm = body.foot_mm - body.heel_mm - body.ball_mm;
     set(TruthPoint::kToeL, side, bones[kToesL + side] * Vector3(toe_mm, 0, 0));
+    set(TruthPoint::kBallL, side, bones[kToesL + side].p);
+    // As high above the sole as the toes.
+    const double sole_mm = body.ankle_to_sole_mm - kToeHeight * body.stature_mm;
+    set(TruthPoint::kHeelL, side, bones[kFootL + side] * Vector3(-body.heel_mm, 0, -sole_mm));
+    set(TruthPoint::kKnucklesL, side,
+        bones[kHandL + side] * Vector3(0, 0, -kKnucklesShare * body.hand_mm));
   }
   return points;
 }

@@ -108,14 +108,21 @@ enum class TruthPoint {
   kAnkleL,
   kAnkleR,
   kToeL,
-  kToeR
+  kToeR,
+  kHeelL,
+  kHeelR,
+  kBallL,
+  kBallR,
+  kKnucklesL,
+  kKnucklesR
 };
-inline constexpr int kTruthPointCount = 19;
+inline constexpr int kTruthPointCount = 25;
 
 inline constexpr std::array<std::string_view, kTruthPointCount> kTruthPointNames = {
     "pelvis",  "neck",    "head",         "shoulder_l",   "shoulder_r", "elbow_l", "elbow_r",
     "wrist_l", "wrist_r", "fingertips_l", "fingertips_r", "hip_l",      "hip_r",   "knee_l",
-    "knee_r",  "ankle_l", "ankle_r",      "toe_l",        "toe_r"};
+    "knee_r",  "ankle_l", "ankle_r",      "toe_l",        "toe_r",      "heel_l",  "heel_r",
+    "ball_l",  "ball_r",  "knuckles_l",   "knuckles_r"};
 
 /// p_WQ of every truth point [mm].
 using TruePoints = std::array<Vector3, kTruthPointCount>;

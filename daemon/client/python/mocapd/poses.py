@@ -20,6 +20,10 @@ POINT_NAMES: tuple[str, ...] = (
     "torso", "head", "upper_arm_l", "upper_arm_r", "thigh_l", "thigh_r", "lower_arm_l", "lower_arm_r", "calf_l", "calf_r",
     "neck", "shoulder_l", "shoulder_r", "hip_l", "hip_r", "elbow_l", "elbow_r", "fingertips_l", "fingertips_r", "knee_l",
     "knee_r", "foot_l", "foot_r")
+#: Points that follow the 23, where the body has them: of hands, feet and collarbones that turn by themselves.
+FURTHER_POINT_NAMES: tuple[str, ...] = (
+    "clavicle_l", "clavicle_r", "wrist_l", "wrist_r", "ankle_l", "ankle_r", "heel_l", "heel_r", "ball_l", "ball_r", "toe_l", "toe_r",
+    "knuckles_l", "knuckles_r")
 #: Names of the paper's sixteen angles, theta_1 to theta_16, in mocapd's own body tables.
 PAPER_JOINT_NAMES: tuple[str, ...] = (
     "neck_x", "neck_y", "shoulder_l_x", "shoulder_r_x", "shoulder_l_z", "shoulder_r_z", "shoulder_l_y", "shoulder_r_y", "elbow_l_z",
@@ -109,6 +113,26 @@ class Body:
 
 
 @dataclasses.dataclass(frozen=True, eq=False)
+class Told:
+    """What MOCAP_DETAILS adds to a pose. NaN: not known."""
+    probability: float = float("nan")  #: of the pose, 0 to 1
+    further_points_mm: np.ndarray = dataclasses.field(default_factory=lambda: np.full((len(FURTHER_POINT_NAMES), 3), np.nan))
+    further_points_std_mm: np.ndarray = dataclasses.field(default_factory=lambda: np.full(len(FURTHER_POINT_NAMES), np.nan))
+
+    @classmethod
+    def of(cls, details: person_details_t) -> Told:
+        told = cls(probability=float(details.probability) if 0 <= details.probability <= 1 else float("nan"))
+        for i, name in enumerate(FURTHER_POINT_NAMES):
+            if name not in details.point_name:
+                continue
+            place = details.point_name.index(name)
+            if np.isfinite(details.point_mm[place]).all():
+                told.further_points_mm[i] = details.point_mm[place]
+                told.further_points_std_mm[i] = details.point_std_mm[place]
+        return told
+
+
+@dataclasses.dataclass(frozen=True, eq=False)
 class Pose:
     """A person's pose at one moment. Arrays are full of NaN where nobody is tracked."""
     utime: int  #: of capture, microseconds since the Unix epoch
@@ -125,6 +149,8 @@ class Pose:
     points_std_mm: np.ndarray  #: 23
     residual_mm: float  #: mean distance between the body and the observations
     probability: float  #: of the pose, 0 to 1; NaN: not known
+    further_points_mm: np.ndarray  #: 14 x 3, in the order of FURTHER_POINT_NAMES; NaN: not known
+    further_points_std_mm: np.ndarray  #: 14
 
     @property
     def is_tracked(self) -> bool:
@@ -136,8 +162,8 @@ class Pose:
         return self.utime * 1e-6
 
     def point(self, name: str) -> np.ndarray:
-        """Where one of POINT_NAMES lies; 3 [mm]. @raises ValueError  for another name."""
-        return self.points_mm[place_of(name, POINT_NAMES, "point")]
+        """Where one of POINT_NAMES or FURTHER_POINT_NAMES lies; 3 [mm]. @raises ValueError  for another name."""
+        return np.concatenate([self.points_mm, self.further_points_mm])[place_of(name, POINT_NAMES + FURTHER_POINT_NAMES, "point")]
 
     def angle(self, joint: str) -> float:
         """How far a joint is turned [rad]: one of body.joint_names, or "theta_1" to "theta_16". NaN where nobody is tracked.
@@ -151,7 +177,7 @@ class Pose:
 
     @classmethod
     def of(cls, message: pose_t | person_t, utime: int, frame: int, body: Body | None, person: int | None = None,
-           name: str = "", probability: float = float("nan")) -> Pose | None:
+           name: str = "", told: Told | None = None) -> Pose | None:
         """Reads a message. None where somebody is tracked and the body is not known yet, or a number is none."""
         state = state_name(message.state)
         if not is_time(utime):
@@ -160,12 +186,13 @@ class Pose:
             return cls.untracked(utime, frame, state, person, name)
         if body is None or len(body.joint_names) != message.num_joints or not has_numbers(message):
             return None
+        told = told or Told()
         return cls(utime=utime, frame=frame, state=state, person=person, name=name, body=body,
                    torso_mm=np.array(message.torso_mm), theta_rad=np.array(message.theta_rad),
                    joints_rad=np.array(message.joint_rad),
                    torso_rotation=rotation_matrix(message.torso_axis, message.torso_angle_rad),
                    points_mm=np.array(message.point_mm), points_std_mm=np.array(message.point_std_mm),
-                   residual_mm=message.residual_mm, probability=probability)
+                   residual_mm=message.residual_mm, **vars(told))
 
     @classmethod
     def untracked(cls, utime: int, frame: int, state: str, person: int | None, name: str) -> Pose:
@@ -174,7 +201,7 @@ class Pose:
         return cls(utime=utime, frame=frame, state=state, person=person, name=name, body=None, torso_mm=nothing(3),
                    torso_rotation=nothing(3, 3), theta_rad=nothing(len(THETA_NAMES)), joints_rad=nothing(0),
                    points_mm=nothing(len(POINT_NAMES), 3), points_std_mm=nothing(len(POINT_NAMES)), residual_mm=float("nan"),
-                   probability=float("nan"))
+                   **vars(Told()))
 
 
 class SetDetails:
@@ -190,13 +217,13 @@ class SetDetails:
         others = [before for before in self._of_set if before.utime == message.utime and before.person != message.person]
         self._of_set = [*others, message]
 
-    def probability(self, utime: int, person: int | None) -> float:
-        """Of a person's pose; None: of the one in pose_t. NaN where it is not known."""
+    def of(self, utime: int, person: int | None) -> Told:
+        """Of a person's pose; None: of the one in pose_t."""
         for details in self._of_set:
             is_meant = details.place == 0 if person is None else details.person == person
-            if details.utime == utime and is_meant and 0 <= details.probability <= 1:
-                return float(details.probability)
-        return float("nan")
+            if details.utime == utime and is_meant:
+                return Told.of(details)
+        return Told()
 
 
 class PoseDecoder:
@@ -222,7 +249,7 @@ class PoseDecoder:
     def pose(self, data: bytes) -> Pose | None:
         message = decoded(pose_t, data)
         pose = None if message is None else Pose.of(
-            message, message.utime, message.frame, self.body, probability=self.details.probability(message.utime, None))
+            message, message.utime, message.frame, self.body, told=self.details.of(message.utime, None))
         self.left_out = {None: why_not(message, self.body)} if pose is None else {}
         return pose
 
@@ -234,7 +261,7 @@ class PoseDecoder:
             return None
         self.bodies = {person.id: self.bodies[person.id] for person in message.people if person.id in self.bodies}
         poses = [Pose.of(person, message.utime, message.frame, self.bodies.get(person.id), person.id, person.name,
-                         self.details.probability(message.utime, person.id))
+                         self.details.of(message.utime, person.id))
                  for person in message.people]
         self.left_out = {person.id: why_not(person, self.bodies.get(person.id))
                          for person, pose in zip(message.people, poses) if pose is None}

@@ -13,8 +13,8 @@ import numpy as np
 from .lcm_log import listed_prefixes, read_events
 from .mocap.people_t import people_t
 from .mocap.pose_t import pose_t
-from .poses import (PAPER_JOINT_NAMES, POINT_NAMES, THETA_NAMES, TRACKING, Body, PoseDecoder, SetDetails, decoded, has_numbers,
-                    is_time, place_of, rotation_matrix, state_name)
+from .poses import (FURTHER_POINT_NAMES, PAPER_JOINT_NAMES, POINT_NAMES, THETA_NAMES, TRACKING, Body, PoseDecoder, SetDetails, Told,
+                    decoded, has_numbers, is_time, place_of, rotation_matrix, state_name)
 
 if TYPE_CHECKING:
     import pandas
@@ -48,6 +48,8 @@ class Result:
     residual_mm: np.ndarray  #: n
     points_std_mm: np.ndarray  #: n x 23, standard deviation of each point along its worst axis; NaN in results without
     probability: np.ndarray  #: n, of the pose, 0 to 1; NaN where the tracker could not tell, and in results without
+    further_points_mm: np.ndarray  #: n x 14 x 3, in the order of FURTHER_POINT_NAMES; NaN where they are not known
+    further_points_std_mm: np.ndarray  #: n x 14
     joint_names: tuple[str, ...]  #: as of live poses; in results without them, the paper's sixteen
     joints_rad: np.ndarray  #: n x joint_names
 
@@ -64,8 +66,9 @@ class Result:
         return (self.timestamp_ns - self.timestamp_ns[:1]) * 1e-9
 
     def point(self, name: str) -> np.ndarray:
-        """Where one of POINT_NAMES lies; n x 3 [mm]. @raises ValueError  for another name."""
-        return self.points_mm[:, place_of(name, POINT_NAMES, "point")]
+        """Where one of POINT_NAMES or FURTHER_POINT_NAMES lies; n x 3 [mm]. @raises ValueError  for another name."""
+        points = np.concatenate([self.points_mm, self.further_points_mm], axis=1)
+        return points[:, place_of(name, POINT_NAMES + FURTHER_POINT_NAMES, "point")]
 
     def angle(self, joint: str) -> np.ndarray:
         """How far a joint is turned; n [rad]. One of joint_names, or "theta_1" to "theta_16" of Table 1.
@@ -87,7 +90,10 @@ class Result:
                     for k, axis in enumerate("xyz")}
         columns["residual_mm"] = self.residual_mm
         columns |= {f"{name}_rad": self.joints_rad[:, i] for i, name in enumerate(self.joint_names)}
-        columns |= {f"deviation_{name}_mm": self.points_std_mm[:, i] for i, name in enumerate(POINT_NAMES)}
+        columns |= {f"{name}_{axis}_mm": self.further_points_mm[:, i, k] for i, name in enumerate(FURTHER_POINT_NAMES)
+                    for k, axis in enumerate("xyz")}
+        deviations = np.concatenate([self.points_std_mm, self.further_points_std_mm], axis=1)
+        columns |= {f"deviation_{name}_mm": deviations[:, i] for i, name in enumerate(POINT_NAMES + FURTHER_POINT_NAMES)}
         columns["probability"] = self.probability
         return columns
 
@@ -121,6 +127,8 @@ def read_result(folder: Path) -> Result:
         columns = _joint_columns(poses, header, body)
         places = _Places(joints=[header.index(column) for column in columns.values()],
                          deviations=[_place_in(header, f"deviation_{point}_mm") for point in POINT_NAMES],
+                         further=[_place_in(header, f"{point}_{axis}_mm") for point in FURTHER_POINT_NAMES for axis in "xyz"],
+                         further_deviations=[_place_in(header, f"deviation_{point}_mm") for point in FURTHER_POINT_NAMES],
                          probability=_place_in(header, "probability"))
         for row in filter(None, reader):
             try:
@@ -193,7 +201,7 @@ def read_log(path: Path, prefix: str | None = None, person: int | None = None) -
         elif channel == chosen + POSE:
             message = decoded(pose_t, data)
             if message is not None:
-                rows.add_message(message, message.utime, message.frame, decoder.details.probability(message.utime, None))
+                rows.add_message(message, message.utime, message.frame, decoder.details.of(message.utime, None))
     return _result_of(path, rows, decoder.body)
 
 
@@ -264,7 +272,7 @@ def _read_people_log(path: Path, prefix: str | None) -> dict[int, tuple[str, Res
             frame = people.frame
             for person in people.people:
                 rows.setdefault(before + person.id, _Rows()).add_message(
-                    person, people.utime, people.frame, details.probability(people.utime, person.id))
+                    person, people.utime, people.frame, details.of(people.utime, person.id))
                 names[before + person.id] = person.name or names.get(before + person.id, "")
     return {number: (names[number], _result_of(path, rows[number], bodies[number])) for number in sorted(rows)
             if number in bodies}
@@ -292,6 +300,8 @@ class _Places(NamedTuple):
     """Where columns of poses.csv are that not every result has."""
     joints: list[int]
     deviations: list[int | None]
+    further: list[int | None]
+    further_deviations: list[int | None]
     probability: int | None
 
 
@@ -308,16 +318,20 @@ class _Rows:
 
         def number_or_none(place: int | None) -> float:
             return float(row[place] or "nan") if place is not None else float("nan")
+
+        def numbers_or_none(places: list[Any]) -> np.ndarray:
+            return np.array([number_or_none(place) for place in places])
         self.heads.append((np.int64(int(row[0])), np.int64(int(row[1])), row[2]))
         if row[2] != TRACKING:
             self.poses.append(None)
             return
         self.poses.append((numbers(TORSO_PLACE, TORSO_PLACE + 3), numbers(TORSO_PLACE + 3, ANGLE_PLACE), np.array(float(row[ANGLE_PLACE])),
                            numbers(THETA_PLACE, POINT_PLACE), numbers(POINT_PLACE, RESIDUAL_PLACE).reshape(-1, 3),
-                           np.array(float(row[RESIDUAL_PLACE])), np.array([number_or_none(place) for place in places.deviations]),
-                           np.array(number_or_none(places.probability)), np.array([number_or_none(place) for place in places.joints])))
+                           np.array(float(row[RESIDUAL_PLACE])), numbers_or_none(places.deviations),
+                           np.array(number_or_none(places.probability)), numbers_or_none(places.further).reshape(-1, 3),
+                           numbers_or_none(places.further_deviations), numbers_or_none(places.joints)))
 
-    def add_message(self, message: Any, utime: int, frame: int, probability: float) -> None:
+    def add_message(self, message: Any, utime: int, frame: int, told: Told) -> None:
         state = state_name(message.state)
         head = (frame, utime * 1000, state)
         came_before = bool(self.heads) and self.heads[-1] == head
@@ -327,10 +341,12 @@ class _Rows:
         self.poses.append(None if state != TRACKING else (
             np.array(message.torso_mm), np.array(message.torso_axis), np.array(message.torso_angle_rad),
             np.array(message.theta_rad), np.array(message.point_mm), np.array(message.residual_mm),
-            np.array(message.point_std_mm), np.array(probability), np.array(message.joint_rad)))
+            np.array(message.point_std_mm), np.array(told.probability), told.further_points_mm, told.further_points_std_mm,
+            np.array(message.joint_rad)))
 
     def result(self, model: str, stature_mm: float, sizes_mm: dict[str, float], joint_names: tuple[str, ...]) -> Result:
-        shapes = ((3,), (3,), (), (len(THETA_NAMES),), (len(POINT_NAMES), 3), (), (len(POINT_NAMES),), (), (len(joint_names),))
+        shapes = ((3,), (3,), (), (len(THETA_NAMES),), (len(POINT_NAMES), 3), (), (len(POINT_NAMES),), (),
+                  (len(FURTHER_POINT_NAMES), 3), (len(FURTHER_POINT_NAMES),), (len(joint_names),))
         columns = [np.full((len(self.heads), *shape), np.nan) for shape in shapes]
         for i, pose in enumerate(self.poses):
             if pose is None:
@@ -340,9 +356,10 @@ class _Rows:
                 if column[i].shape == value.shape:
                     column[i] = value
         frames, times, states = zip(*self.heads) if self.heads else ((), (), ())
-        torso_mm, axes, angles, theta, points, residual, deviations, probability, joints = columns
+        torso_mm, axes, angles, theta, points, residual, deviations, probability, further, further_deviations, joints = columns
         rotation = np.array([rotation_matrix(*turn) for turn in zip(axes, angles)]).reshape(-1, 3, 3)
         return Result(model=model, stature_mm=stature_mm, sizes_mm=sizes_mm, frame=np.array(frames, dtype=np.int64),
                       timestamp_ns=np.array(times, dtype=np.int64), state=np.array(states, dtype=str), torso_mm=torso_mm,
                       torso_axis=axes, torso_angle_rad=angles, torso_rotation=rotation, theta_rad=theta, points_mm=points,
-                      residual_mm=residual, points_std_mm=deviations, probability=probability, joint_names=joint_names, joints_rad=joints)
+                      residual_mm=residual, points_std_mm=deviations, probability=probability, further_points_mm=further,
+                      further_points_std_mm=further_deviations, joint_names=joint_names, joints_rad=joints)

@@ -1,0 +1,11 @@
+// `mocap gait`: events and figures of people who walk.
+#pragma once
+
+#include <CLI/CLI.hpp>
+
+namespace mocap {
+
+/// Adds the subcommand `gait RESULT [--out FOLDER] [--json]`.
+void AddGaitCommand(CLI::App& app);
+
+}  // namespace mocap

@@ -1,0 +1,35 @@
+// What `mocap gait` finds in a result, and its files.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "daemon/base/json.h"
+#include "tools/gait/gait_cycle.h"
+#include "tools/gait/gait_events.h"
+#include "tools/gait/gait_figures.h"
+
+namespace mocap {
+
+/// The gait of one person.
+struct GaitAnalysis {
+  double tracked_s = 0;           ///< Length of all runs.
+  std::vector<GaitEvent> events;  ///< In order of time.
+  std::vector<Stride> strides;
+  GaitSummary summary;
+  std::vector<CycleCurve> curves;
+};
+
+/// @throws SetupError  when the result has no points of the feet.
+GaitAnalysis AnalyseGait(const Result& result);
+
+/// A table of figures by side.
+std::string GaitText(const GaitAnalysis& gait);
+/// Fields: tracked_s, events, strides, figures, cycle.
+Json GaitJson(const GaitAnalysis& gait);
+/// Writes events.csv, strides.csv, figures.csv and cycle.csv to a folder, which it creates.
+/// @throws std::runtime_error  when they cannot be written.
+void WriteGait(const std::filesystem::path& folder, const GaitAnalysis& gait);
+
+}  // namespace mocap

@@ -1,0 +1,133 @@
+#include "tools/gait/gait_figures.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+
+namespace mocap {
+namespace {
+
+// A stride takes at most this long: slower people stand.
+constexpr double kLongestStride_s = 2.5;
+
+Side OtherOf(Side side) { return side == Side::kLeft ? Side::kRight : Side::kLeft; }
+
+// Positions between the frames.
+GaitFrame FrameAt(std::span<const GaitFrame> run, double time_s) {
+  const auto after = std::ranges::lower_bound(run, time_s, {}, &GaitFrame::time_s);
+  if (after == run.begin()) return run.front();
+  if (after == run.end()) return run.back();
+  const GaitFrame &a = *(after - 1), &b = *after;
+  const double share = (time_s - a.time_s) / (b.time_s - a.time_s);
+  const auto between = [share](const Vector3& p, const Vector3& q) -> Vector3 {
+    return p + share * (q - p);
+  };
+  GaitFrame frame{time_s, between(a.pelvis_W, b.pelvis_W), {}, {}};
+  for (const std::size_t foot : {0, 1}) {
+    frame.heel_W[foot] = between(a.heel_W[foot], b.heel_W[foot]);
+    frame.toe_W[foot] = between(a.toe_W[foot], b.toe_W[foot]);
+  }
+  return frame;
+}
+
+// The first event of a kind after a time, before another; empty if there is none.
+std::optional<double> TimeOf(std::span<const GaitEvent> events, Side side, GaitEventKind kind,
+                             double after_s, double before_s) {
+  for (const GaitEvent& event : events)
+    if (event.side == side && event.kind == kind && event.time_s > after_s &&
+        event.time_s < before_s)
+      return event.time_s;
+  return std::nullopt;
+}
+
+void MeasureWay(std::span<const GaitFrame> run, Stride& stride) {
+  const GaitFrame begin = FrameAt(run, stride.begin_s), end = FrameAt(run, stride.end_s);
+  const auto foot = static_cast<std::size_t>(stride.side);
+  Vector3 way = end.heel_W[foot] - begin.heel_W[foot];
+  way.z() = 0;
+  const Vector3 ahead = way.normalized(), left = Vector3::UnitZ().cross(ahead);
+  const GaitFrame between = FrameAt(run, stride.opposite_strike_s);
+  const Vector3 step = end.heel_W[foot] - between.heel_W[1 - foot];
+  stride.length_mm = way.norm();
+  stride.step_length_mm = ahead.dot(step);
+  // Feet that cross have a negative width.
+  stride.step_width_mm = (stride.side == Side::kLeft ? 1 : -1) * left.dot(step);
+  stride.speed_mm_s = (end.pelvis_W - begin.pelvis_W).head<2>().norm() / stride.duration_s();
+}
+
+MeanAndSpread Measure(std::span<const Stride> strides, Side side, const GaitFigure& figure) {
+  MeanAndSpread result;
+  double sum = 0, squares = 0;
+  for (const Stride& stride : strides) {
+    if (stride.side != side) continue;
+    const double value = figure.of(stride);
+    sum += value;
+    squares += value * value;
+    ++result.count;
+  }
+  if (result.count == 0) return result;
+  result.mean = sum / result.count;
+  if (result.count > 1)
+    result.spread = std::sqrt(std::max(0.0, squares - sum * result.mean) /
+                              static_cast<double>(result.count - 1));
+  return result;
+}
+
+}  // namespace
+
+const std::array<GaitFigure, 11> kGaitFigures = {{
+    {"step length", "mm", [](const Stride& s) { return s.step_length_mm; }},
+    {"stride length", "mm", [](const Stride& s) { return s.length_mm; }},
+    {"step width", "mm", [](const Stride& s) { return s.step_width_mm; }},
+    {"step time", "s", [](const Stride& s) { return s.end_s - s.opposite_strike_s; }},
+    {"stride time", "s", [](const Stride& s) { return s.duration_s(); }},
+    {"cadence", "steps/min", [](const Stride& s) { return 120 / s.duration_s(); }},
+    {"speed", "m/s", [](const Stride& s) { return s.speed_mm_s / 1000; }},
+    {"stance", "%", [](const Stride& s) { return 100 * (s.off_s - s.begin_s) / s.duration_s(); }},
+    {"swing", "%", [](const Stride& s) { return 100 * (s.end_s - s.off_s) / s.duration_s(); }},
+    {"double support", "%",
+     [](const Stride& s) {
+       return 100 * (s.opposite_off_s - s.begin_s + s.off_s - s.opposite_strike_s) / s.duration_s();
+     }},
+    {"single support", "%",
+     [](const Stride& s) {
+       return 100 * (s.opposite_strike_s - s.opposite_off_s) / s.duration_s();
+     }},
+}};
+
+std::vector<Stride> StridesOf(std::span<const GaitFrame> run, std::span<const GaitEvent> events) {
+  std::vector<Stride> strides;
+  for (const GaitEvent& begin : events) {
+    if (begin.kind != GaitEventKind::kFootStrike) continue;
+    const double latest_s = begin.time_s + kLongestStride_s;
+    const auto end_s =
+        TimeOf(events, begin.side, GaitEventKind::kFootStrike, begin.time_s, latest_s);
+    if (!end_s) continue;
+    const Side other = OtherOf(begin.side);
+    const auto off_s = TimeOf(events, begin.side, GaitEventKind::kFootOff, begin.time_s, *end_s);
+    const auto other_off_s = TimeOf(events, other, GaitEventKind::kFootOff, begin.time_s, *end_s);
+    const auto strike_s = TimeOf(events, other, GaitEventKind::kFootStrike, begin.time_s, *end_s);
+    if (!off_s || !other_off_s || !strike_s) continue;
+    Stride& stride = strides.emplace_back();
+    stride = {begin.side, begin.time_s, *end_s, *off_s, *other_off_s, *strike_s};
+    MeasureWay(run, stride);
+  }
+  return strides;
+}
+
+GaitSummary Summarize(std::span<const Stride> strides) {
+  GaitSummary summary;
+  for (std::size_t i = 0; i < kGaitFigures.size(); ++i) {
+    for (const Side side : {Side::kLeft, Side::kRight})
+      summary.figures[static_cast<std::size_t>(side)][i] = Measure(strides, side, kGaitFigures[i]);
+    const MeanAndSpread &left = summary.figures[0][i], &right = summary.figures[1][i];
+    const bool has_both = left.count > 0 && right.count > 0 && left.mean + right.mean != 0;
+    summary.symmetry_percent[i] = has_both
+                                      ? 200 * (left.mean - right.mean) / (left.mean + right.mean)
+                                      : std::numeric_limits<double>::quiet_NaN();
+  }
+  return summary;
+}
+
+}  // namespace mocap
