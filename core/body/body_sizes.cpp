@@ -10,11 +10,11 @@ constexpr double kWristShare = 0.575;
 constexpr double kAnkleHeight = 0.137;
 // The knuckles, of the hand (de Leva 1996: 86 of 188 mm).
 constexpr double kKnucklesShare = 0.46;
-// Heel, ball and toe before the ankle, and above the sole, of the foot's length. The heel's bone
-// ends 49 mm behind the ankle (Rajagopal et al. 2016), its flesh a quarter of the foot behind it;
-// the ball lies 0.73 of the foot before the heel (ANSUR, Gordon et al. 1989).
+// Heel, ball and toe before the ankle, of the foot's length. The heel's bone ends 49 mm behind the
+// ankle (Rajagopal et al. 2016), its flesh a quarter of the foot behind it; the ball lies 0.73 of
+// the foot before the heel (ANSUR, Gordon et al. 1989). All lie where a bare foot touches the floor,
+// on top of the sole of a shoe.
 constexpr double kHeelShare = -0.25, kBallShare = 0.48, kToeShare = 0.75;
-constexpr double kFootBoneHeight = 0.08;
 
 }  // namespace
 
@@ -85,9 +85,9 @@ BodyPlaces ReferencePoints(const BodySizes& s, const JointPlacement& placement) 
     at(Point::kCalfL) = (knee + sole) / 2;
     at(Point::kAnkleL) = sole + Eigen::Vector3d(0, 0, kAnkleHeight * s.calf);
     const double foot = s.FootLength();
-    at(Point::kHeelL) = sole + foot * Eigen::Vector3d(kHeelShare, 0, kFootBoneHeight);
-    at(Point::kBallL) = sole + foot * Eigen::Vector3d(kBallShare, 0, kFootBoneHeight);
-    at(Point::kToeL) = sole + foot * Eigen::Vector3d(kToeShare, 0, kFootBoneHeight);
+    at(Point::kHeelL) = sole + Eigen::Vector3d(kHeelShare * foot, 0, 0);
+    at(Point::kBallL) = sole + Eigen::Vector3d(kBallShare * foot, 0, 0);
+    at(Point::kToeL) = sole + Eigen::Vector3d(kToeShare * foot, 0, 0);
   }
   return p;
 }

@@ -8,15 +8,16 @@
 #include "core/objective/border_term.h"
 #include "core/objective/contact_term.h"
 #include "core/objective/flesh_term.h"
+#include "core/objective/floor_term.h"
 #include "core/objective/overlap_term.h"
 #include "core/objective/pose_priors.h"
 
 namespace mocap {
 
 /// The terms of the objective.
-enum class Term { kRays, kSurface, kBorders, kFlesh, kOverlap, kThings, kJoints, kHabits };
-inline constexpr std::array<std::string_view, 8> kTermNames = {
-    "rays", "surface", "borders", "flesh", "overlap", "things", "joints", "habits"};
+enum class Term { kRays, kSurface, kBorders, kFlesh, kOverlap, kFloor, kThings, kJoints, kHabits };
+inline constexpr std::array<std::string_view, 9> kTermNames = {
+    "rays", "surface", "borders", "flesh", "overlap", "floor", "things", "joints", "habits"};
 
 /// -log p of a body at a pose.
 struct Fitness {

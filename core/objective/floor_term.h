@@ -1,0 +1,17 @@
+// Nobody is below the floor, z = 0.
+#pragma once
+
+#include "core/body/posed_body.h"
+#include "core/objective/noise.h"
+
+namespace mocap {
+
+/// -log p of flesh below the floor: the residual is the depth of the lowest place at each end of a
+/// capsule.
+class FloorTerm {
+ public:
+  double At(const PosedBody& posed, CapsuleSet capsules) const;
+  void Linearize(const PosedBody& posed, CapsuleSet capsules, Linearisation& sums) const;
+};
+
+}  // namespace mocap
