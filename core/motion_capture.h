@@ -46,6 +46,7 @@ struct Observation {
 
 using PointStds = Eigen::Matrix<double, 1, kPointCount>;
 using FurtherStds = Eigen::Matrix<double, 1, kFurtherPointCount>;
+using Contacts = Eigen::Matrix<double, 1, kContactCount>;
 
 /// Another pose that a person may have.
 struct RivalPose {
@@ -64,6 +65,8 @@ struct CaptureResult {
   /// The points that follow the 23, and their deviations; NaN: the body does not have them apart.
   FurtherPoints further_W = FurtherPoints::Constant(std::numeric_limits<double>::quiet_NaN());
   FurtherStds further_std_mm = FurtherStds::Constant(std::numeric_limits<double>::quiet_NaN());
+  /// How likely heels and toes touch the floor, 0 to 1; NaN: not known.
+  Contacts contacts = Contacts::Constant(std::numeric_limits<double>::quiet_NaN());
   /// Of the pose, 0 to 1. Empty: nobody is there, or the tracker cannot tell.
   std::optional<double> probability;
   std::optional<RivalPose> rival;  ///< The likeliest of the other poses, if there are any.

@@ -77,6 +77,13 @@ inline constexpr std::array<std::string_view, kFurtherPointCount> kFurtherPointN
     "clavicle_l", "clavicle_r", "wrist_l", "wrist_r", "ankle_l", "ankle_r",    "heel_l",
     "heel_r",     "ball_l",     "ball_r",  "toe_l",   "toe_r",   "knuckles_l", "knuckles_r"};
 
+/// Points of the feet that touch the floor: heels and toes.
+inline constexpr std::array<Point, 4> kContactPoints = {Point::kHeelL, Point::kHeelR, Point::kToeL,
+                                                        Point::kToeR};
+inline constexpr int kContactCount = 4;
+inline constexpr std::array<std::string_view, kContactCount> kContactNames = {"heel_l", "heel_r",
+                                                                              "toe_l", "toe_r"};
+
 /// Number of rotation axes of the paper's body (Table 1).
 inline constexpr int kPaperAngleCount = 16;
 

@@ -121,6 +121,13 @@ void FillJoints(const PoseState& pose, const BodyTable& table, int count,
   }
 }
 
+void FillContacts(const CaptureResult& result, bool has_pose, person_details_t& message) {
+  const int count = has_pose && result.contacts.allFinite() ? kContactCount : 0;
+  message.num_contacts = count;
+  message.contact_name.assign(kContactNames.begin(), kContactNames.begin() + count);
+  message.contact.assign(result.contacts.begin(), result.contacts.begin() + count);
+}
+
 }  // namespace
 
 void FillPose(const TrackedSet& set, int cameras, pose_t& message) {
@@ -152,9 +159,7 @@ void FillDetails(const TrackedSet& set, std::size_t place, person_details_t& mes
   message.probability = has_pose ? result.probability.value_or(std::nan("")) : std::nan("");
   FillPoints(result, has_pose, message);
   FillJoints(result.pose, body.table(), has_pose ? body.joint_count() : 0, message);
-  message.num_contacts = 0;
-  message.contact_name.clear();
-  message.contact.clear();
+  FillContacts(result, has_pose, message);
   message.rival_probability = has_rival ? result.rival->probability : 0;
   message.num_rival_points = has_rival ? kPointCount : 0;
   message.rival_point_mm.resize(message.num_rival_points);

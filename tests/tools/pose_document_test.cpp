@@ -14,7 +14,7 @@
 #include "tests/support/moving_body.h"
 #include "tests/support/temporary_folder.h"
 #include "tools/interchange/bvh_writer.h"
-#include "tools/interchange/joint_angles.h"
+#include "tools/kinematics/joint_angles.h"
 #include "tools/results/fixed_text.h"
 #include "tools/results/result_columns.h"
 

@@ -7,8 +7,8 @@
 
 #include "daemon/base/json.h"
 #include "tools/gait/gait_cycle.h"
-#include "tools/gait/gait_events.h"
 #include "tools/gait/gait_figures.h"
+#include "tools/kinematics/gait_events.h"
 
 namespace mocap {
 

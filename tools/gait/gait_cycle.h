@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "tools/gait/gait_figures.h"
-#include "tools/interchange/joint_angles.h"
+#include "tools/kinematics/joint_angles.h"
 
 namespace mocap {
 

@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-#include "tools/gait/gait_events.h"
+#include "tools/kinematics/gait_events.h"
 
 namespace mocap {
 

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "core/body/body_shape.h"
-#include "tools/interchange/rest_body.h"
+#include "tools/kinematics/rest_body.h"
 
 namespace mocap {
 namespace {

@@ -7,9 +7,9 @@
 #include <string>
 
 #include "core/degrees.h"
-#include "tools/interchange/euler_zxy.h"
 #include "tools/interchange/people_times.h"
 #include "tools/interchange/skeleton_motion.h"
+#include "tools/kinematics/euler_zxy.h"
 #include "tools/results/export_axes.h"
 #include "tools/results/fixed_text.h"
 

@@ -12,7 +12,7 @@
 #include "drivers/printable_text.h"
 #include "tools/interchange/c3d_layout.h"
 #include "tools/interchange/c3d_parameters.h"
-#include "tools/interchange/joint_angles.h"
+#include "tools/kinematics/joint_angles.h"
 #include "tools/results/export_axes.h"
 
 namespace mocap {

@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "core/degrees.h"
-#include "tools/interchange/joint_angles.h"
+#include "tools/kinematics/joint_angles.h"
 #include "tools/results/export_axes.h"
 #include "tools/results/fixed_text.h"
 #include "tools/results/result_columns.h"

@@ -7,7 +7,7 @@
 #include "core/degrees.h"
 #include "core/errors.h"
 #include "drivers/printable_text.h"
-#include "tools/interchange/joint_angles.h"
+#include "tools/kinematics/joint_angles.h"
 #include "tools/results/fixed_text.h"
 
 namespace mocap {

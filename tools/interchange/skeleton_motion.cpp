@@ -4,7 +4,7 @@
 #include <string>
 
 #include "core/errors.h"
-#include "tools/interchange/rest_body.h"
+#include "tools/kinematics/rest_body.h"
 #include "tools/results/export_axes.h"
 
 namespace mocap {

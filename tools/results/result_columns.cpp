@@ -40,6 +40,14 @@ void SetCoordinateIn(PoseRow& row, std::size_t place, double mm) {
   row.further_W.reshaped()[static_cast<Eigen::Index>(place)] = mm;
 }
 
+double ContactIn(const PoseRow& row, std::size_t place) {
+  return row.contacts[static_cast<Eigen::Index>(place)];
+}
+
+void SetContactIn(PoseRow& row, std::size_t place, double share) {
+  row.contacts[static_cast<Eigen::Index>(place)] = share;
+}
+
 double ProbabilityIn(const PoseRow& row, std::size_t) { return row.probability; }
 
 void SetProbabilityIn(PoseRow& row, std::size_t, double probability) {
@@ -83,6 +91,14 @@ std::vector<FurtherColumn> FurtherColumns(const BodyRecord& body, ListedJoints j
                        .place = i,
                        .number = DeviationIn,
                        .set_number = SetDeviationIn});
+  }
+  for (std::size_t i = 0; i < kContactCount; ++i) {
+    columns.push_back({.name = "contact_" + std::string(kContactNames[i]),
+                       .decimals = 3,
+                       .is_share = true,
+                       .place = i,
+                       .number = ContactIn,
+                       .set_number = SetContactIn});
   }
   columns.push_back({.name = "probability",
                      .decimals = 4,

@@ -33,7 +33,7 @@ struct FurtherColumn {
 /// Joints that have columns of their own.
 enum class ListedJoints { kBeyondPaper, kAll };
 /// All such columns in order: angles of joints, points that follow the 23, deviations of all
-/// points, probability.
+/// points, contacts with the floor, probability.
 std::vector<FurtherColumn> FurtherColumns(const BodyRecord& body, ListedJoints joints);
 
 /// The column of a joint that is none of the paper's sixteen: <name>_rad.

@@ -21,7 +21,8 @@ bool IsSound(const person_details_t& details) {
                             return std::ranges::all_of(point_mm, is_told);
                           });
   const bool is_probability = std::isnan(details.probability) || IsShare(details.probability);
-  return are_points && is_probability && IsShare(details.rival_probability) &&
+  return are_points && is_probability && std::ranges::all_of(details.contact, IsShare) &&
+         IsShare(details.rival_probability) &&
          std::ranges::all_of(details.rival_point_mm, [](const std::vector<double>& point_mm) {
            return std::ranges::all_of(point_mm, [](double mm) { return std::isfinite(mm); });
          });
@@ -62,6 +63,11 @@ void TellDetails(const person_details_t* details, PoseRow& row) {
     const auto place = static_cast<std::size_t>(name - details->point_name.begin());
     row.further_W.col(i) = Vector3(details->point_mm[place].data());
     row.further_std_mm[i] = details->point_std_mm[place];
+  }
+  for (int i = 0; i < kContactCount; ++i) {
+    const auto name = std::ranges::find(details->contact_name, kContactNames[i]);
+    if (name == details->contact_name.end()) continue;
+    row.contacts[i] = details->contact[name - details->contact_name.begin()];
   }
 }
 

@@ -25,8 +25,8 @@ class SetDetails {
   std::vector<person_details_t> of_set_;  ///< Of the same utime.
 };
 
-/// Adds what a message tells beyond pose_t and person_t: the probability of the pose, and the
-/// points that follow the 23. @param details  null: no message.
+/// Adds what a message tells beyond pose_t and person_t: the probability of the pose, the points
+/// that follow the 23, and contacts with the floor. @param details  null: no message.
 void TellDetails(const person_details_t* details, PoseRow& row);
 
 }  // namespace mocap

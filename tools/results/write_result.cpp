@@ -112,6 +112,7 @@ PoseRow PoseRowOf(std::int64_t frame, std::int64_t capture_ns, const CaptureResu
     row.point_std_mm = result.point_std_mm;
     row.further_W = result.further_W;
     row.further_std_mm = result.further_std_mm;
+    row.contacts = result.contacts;
     row.joint_rad = result.pose.theta;
     row.residual_mm = result.residual_mm;
     if (result.probability) row.probability = *result.probability;

@@ -51,6 +51,10 @@ void AddTold(const PoseRow& told, Json& json) {
     json["points_mm"][name] = {Mm(p_W.x()), Mm(p_W.y()), Mm(p_W.z())};
     json["points_std_mm"][name] = Mm(told.further_std_mm[i]);
   }
+  for (int i = 0; i < kContactCount; ++i) {
+    if (std::isnan(told.contacts[i])) continue;
+    json["contacts"][std::string(kContactNames[i])] = RoundedTo(told.contacts[i], 1e3);
+  }
   if (!std::isnan(told.probability)) json["probability"] = RoundedTo(told.probability, 1e4);
 }
 

@@ -60,7 +60,9 @@ TEST(Gait, SidesTakeTurns) {
   bool is_first = true;
   for (const GaitEvent& event : FindGaitEvents(runs.front())) {
     if (event.kind != GaitEventKind::kFootStrike) continue;
-    if (!is_first) EXPECT_NE(event.side, last) << event.time_s;
+    if (!is_first) {
+      EXPECT_NE(event.side, last) << event.time_s;
+    }
     last = event.side;
     is_first = false;
   }

@@ -10,7 +10,7 @@
 
 #include "core/errors.h"
 #include "tests/support/moving_body.h"
-#include "tools/interchange/joint_angles.h"
+#include "tools/kinematics/joint_angles.h"
 #include "tools/results/export_axes.h"
 
 namespace mocap {

@@ -1,11 +1,11 @@
-#include "tools/interchange/joint_angles.h"
+#include "tools/kinematics/joint_angles.h"
 
 #include <algorithm>
 #include <cmath>
 
 #include "core/degrees.h"
-#include "tools/interchange/euler_zxy.h"
-#include "tools/interchange/rest_body.h"
+#include "tools/kinematics/euler_zxy.h"
+#include "tools/kinematics/rest_body.h"
 #include "tools/results/export_axes.h"
 
 namespace mocap {

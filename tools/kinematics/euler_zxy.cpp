@@ -1,4 +1,4 @@
-#include "tools/interchange/euler_zxy.h"
+#include "tools/kinematics/euler_zxy.h"
 
 #include <algorithm>
 #include <cmath>

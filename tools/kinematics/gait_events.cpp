@@ -1,4 +1,4 @@
-#include "tools/gait/gait_events.h"
+#include "tools/kinematics/gait_events.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "tools/interchange/rest_body.h"
+#include "tools/kinematics/rest_body.h"
 
 #include <algorithm>
 
