@@ -14,9 +14,17 @@ namespace mocap {
 namespace {
 
 constexpr std::array<const char*, kSegmentCount> kSegmentNames = {
-    "torso",      "pelvis",      "head",        "upper_arm_l", "upper_arm_r", "thigh_l",
-    "thigh_r",    "lower_arm_l", "lower_arm_r", "calf_l",      "calf_r",      "shoulder_l",
-    "shoulder_r", "hand_l",      "hand_r",      "foot_l",      "foot_r"};
+    "torso",       "pelvis",      "head",   "upper_arm_l", "upper_arm_r", "thigh_l",    "thigh_r",
+    "lower_arm_l", "lower_arm_r", "calf_l", "calf_r",      "shoulder_l",  "shoulder_r", "hand_l",
+    "hand_r",      "foot_l",      "foot_r", "toes_l",      "toes_r"};
+
+// Toes that the table does not name belong to the foot.
+constexpr int kToesAfterFoot =
+    static_cast<int>(Segment::kToesL) - static_cast<int>(Segment::kFootL);
+
+bool HasCarrier(TomlSection& segments, int segment) {
+  return segment < static_cast<int>(Segment::kToesL) || segments.Has(kSegmentNames[segment]);
+}
 
 // Index of a joint by its name; -1 for "", the torso.
 int FindJoint(TomlSection& section, const std::string& key, const std::vector<JointAxis>& joints) {
@@ -118,7 +126,8 @@ BodyTable ReadBodyTable(TomlSection root) {
   if (table.joints.empty()) root.Fail("joints", "is empty; expected [[joints]]");
   TomlSection segments = root.NeededSection("segments", "the axis that moves each segment");
   for (int i = 0; i < kSegmentCount; ++i) {
-    table.carrier[i] = FindJoint(segments, kSegmentNames[i], table.joints);
+    table.carrier[i] = HasCarrier(segments, i) ? FindJoint(segments, kSegmentNames[i], table.joints)
+                                               : table.carrier[i - kToesAfterFoot];
   }
   segments.RejectUnknownKeys();
   for (const JointAxis& joint : table.joints) {

@@ -11,6 +11,7 @@
 
 #include "core/body/body_model.h"
 #include "core/body/body_part.h"
+#include "core/body/foot_contacts.h"
 #include "core/body/pose_state.h"
 #include "core/reconstruction/carving/voxel_grid.h"
 #include "core/reconstruction/silhouette/outline.h"
@@ -46,7 +47,6 @@ struct Observation {
 
 using PointStds = Eigen::Matrix<double, 1, kPointCount>;
 using FurtherStds = Eigen::Matrix<double, 1, kFurtherPointCount>;
-using Contacts = Eigen::Matrix<double, 1, kContactCount>;
 
 /// Another pose that a person may have.
 struct RivalPose {
@@ -66,7 +66,7 @@ struct CaptureResult {
   FurtherPoints further_W = FurtherPoints::Constant(std::numeric_limits<double>::quiet_NaN());
   FurtherStds further_std_mm = FurtherStds::Constant(std::numeric_limits<double>::quiet_NaN());
   /// How likely heels and toes touch the floor, 0 to 1; NaN: not known.
-  Contacts contacts = Contacts::Constant(std::numeric_limits<double>::quiet_NaN());
+  Contacts contacts = kUnknownContacts;
   /// Of the pose, 0 to 1. Empty: nobody is there, or the tracker cannot tell.
   std::optional<double> probability;
   std::optional<RivalPose> rival;  ///< The likeliest of the other poses, if there are any.

@@ -211,12 +211,17 @@ class SurfaceCapture : public MotionCapture {
   void Report(double dt_s) {
     result_.probability.reset();
     result_.rival.reset();
+    result_.contacts = kUnknownContacts;
     if (hypotheses_.empty() || result_.state == CaptureState::kSearching) return;
     const BodyModel& body = hypotheses_.best().body;
     const PoseFilter& filter = hypotheses_.best().filter;
     MeasureUncertainty(body, filter);
-    if (result_.state != CaptureState::kTracking) steady_.Reset();
-    result_.pose = steady_.Follow(body, filter, result_.point_std_mm, dt_s);
+    if (result_.state != CaptureState::kTracking) {
+      steady_.Reset();
+      feet_.Reset();
+    }
+    result_.contacts = feet_.Update(body, body.PostureAt(filter.pose()), dt_s);
+    result_.pose = steady_.Follow(body, filter, result_.point_std_mm, result_.contacts, dt_s);
     for (double& std_mm : result_.point_std_mm) std_mm = std::hypot(std_mm, kBodyStd_mm);
     for (double& std_mm : result_.further_std_mm) std_mm = std::hypot(std_mm, kBodyStd_mm);
     const Posture posture = body.PostureAt(result_.pose);
@@ -253,6 +258,7 @@ class SurfaceCapture : public MotionCapture {
   Evidence evidence_;
   Objective objective_;
   HypothesisSet hypotheses_;
+  FootContacts feet_;
   SteadyPose steady_;
   std::optional<BodySizes> known_;
   std::optional<BodySizes> given_;  ///< Known before the person was seen.

@@ -17,7 +17,7 @@ constexpr std::array<Segment, kPlaceCount> kSegmentOfPoint = {
     Segment::kThighR,    Segment::kCalfL,  Segment::kCalfR,     Segment::kTorso,
     Segment::kTorso,     Segment::kHandL,  Segment::kHandR,     Segment::kFootL,
     Segment::kFootR,     Segment::kFootL,  Segment::kFootR,     Segment::kFootL,
-    Segment::kFootR,     Segment::kFootL,  Segment::kFootR,     Segment::kHandL,
+    Segment::kFootR,     Segment::kToesL,  Segment::kToesR,     Segment::kHandL,
     Segment::kHandR};
 
 }  // namespace
@@ -99,8 +99,10 @@ bool BodyModel::MovesApart(Point further) const {
     case Segment::kHandR:
       return carrier(Segment::kHandR) != carrier(Segment::kLowerArmR);
     case Segment::kFootL:
+    case Segment::kToesL:
       return carrier(Segment::kFootL) != carrier(Segment::kCalfL);
     case Segment::kFootR:
+    case Segment::kToesR:
       return carrier(Segment::kFootR) != carrier(Segment::kCalfR);
     default:
       return carrier(Segment::kShoulderL) != carrier(Segment::kTorso);

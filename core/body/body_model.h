@@ -54,6 +54,8 @@ class BodyModel {
   void MoveAxes(const PoseState& pose, std::span<const int> rows, Posture& posture) const;
   /// Places the capsules in the world, in the order of shape(); reuses the memory of `posed`.
   void PoseShape(const Posture& posture, std::vector<PosedCapsule>& posed) const;
+  /// Predicts the position of any point [mm].
+  Vector3 PlaceOf(Point point, const Posture& posture) const;
   /// Predicts the positions of the 23 points; 3 × 23, column i is p_WQ of point i [mm]. Eq. (13).
   BodyPoints PointsAt(const Posture& posture) const;
   /// Predicts the points that follow the 23, likewise. NaN for those of a hand, a foot or a
@@ -75,7 +77,6 @@ class BodyModel {
   PaperState PaperStateOf(const PoseState& pose) const;
 
  private:
-  Vector3 PlaceOf(Point point, const Posture& posture) const;
   /// Whether the segment of a point that follows the 23 turns against its neighbour.
   bool MovesApart(Point further) const;
   void PlaceAxis(const PoseState& pose, int row, Posture& posture) const;

@@ -20,8 +20,8 @@ struct Arm {
 /// A leg's.
 struct Leg {
   BodyPart upper, lower;
-  Segment upper_segment, lower_segment, foot;
-  Point hip, knee, ankle, sole;
+  Segment upper_segment, lower_segment, foot, toes;
+  Point hip, knee, ankle, ball, sole;
 };
 
 constexpr Arm kArms[] = {
@@ -31,9 +31,9 @@ constexpr Arm kArms[] = {
      Segment::kHandR, Point::kShoulderR, Point::kElbowR, Point::kWristR, Point::kFingertipsR}};
 constexpr Leg kLegs[] = {
     {BodyPart::kThighL, BodyPart::kCalfL, Segment::kThighL, Segment::kCalfL, Segment::kFootL,
-     Point::kHipL, Point::kKneeL, Point::kAnkleL, Point::kFootL},
+     Segment::kToesL, Point::kHipL, Point::kKneeL, Point::kAnkleL, Point::kBallL, Point::kFootL},
     {BodyPart::kThighR, BodyPart::kCalfR, Segment::kThighR, Segment::kCalfR, Segment::kFootR,
-     Point::kHipR, Point::kKneeR, Point::kAnkleR, Point::kFootR}};
+     Segment::kToesR, Point::kHipR, Point::kKneeR, Point::kAnkleR, Point::kBallR, Point::kFootR}};
 
 class ShapeBuilder {
  public:
@@ -145,11 +145,17 @@ class ShapeBuilder {
     const double breadth = 0.055 * s.Stature();
     const double heel_radius = 0.38 * breadth;
     const double ball_radius = 0.3 * breadth;
+    const double toe_radius = 0.24 * breadth;
+    const auto aside = [&](double x, double side, double radius) -> Vector3 {
+      return sole + Vector3(x, side * 0.25 * breadth, radius);
+    };
+    const double ball_x = At(leg.ball).x() - sole.x(), toe_x = 0.75 * length - toe_radius;
     for (const double side : {1.0, -1.0}) {
       Add(leg.lower, leg.foot, sole + Vector3(-0.1 * length, 0, heel_radius),
-          sole + Vector3(0.65 * length, side * 0.25 * breadth, ball_radius), heel_radius,
-          ball_radius, true);
+          aside(ball_x, side, ball_radius), heel_radius, ball_radius, true);
     }
+    Add(leg.lower, leg.toes, aside(toe_x, 1, toe_radius), aside(toe_x, -1, toe_radius), toe_radius,
+        toe_radius);
   }
 
  private:

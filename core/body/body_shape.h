@@ -20,7 +20,7 @@ struct Capsule {
   double radius_b_mm = 0;
   double cloth_a_mm = 0;  ///< How far cloth hangs off it at each end.
   double cloth_b_mm = 0;
-  /// No further capsule continues beyond `b` in this direction: elbow, fingertips, toes.
+  /// No further capsule continues beyond `b` in this direction: elbow, fingertips, forefoot.
   bool ends_at_b = false;
 };
 

@@ -12,8 +12,8 @@ constexpr double kAnkleHeight = 0.137;
 constexpr double kKnucklesShare = 0.46;
 // Heel, ball and toe before the ankle, of the foot's length. The heel's bone ends 49 mm behind the
 // ankle (Rajagopal et al. 2016), its flesh a quarter of the foot behind it; the ball lies 0.73 of
-// the foot before the heel (ANSUR, Gordon et al. 1989). All lie where a bare foot touches the floor,
-// on top of the sole of a shoe.
+// the foot before the heel (ANSUR, Gordon et al. 1989). All lie where a bare foot touches the
+// floor, on top of the sole of a shoe.
 constexpr double kHeelShare = -0.25, kBallShare = 0.48, kToeShare = 0.75;
 
 }  // namespace

@@ -45,9 +45,11 @@ enum class Segment {
   kHandL,
   kHandR,
   kFootL,
-  kFootR
+  kFootR,
+  kToesL,
+  kToesR
 };
-inline constexpr int kSegmentCount = 17;
+inline constexpr int kSegmentCount = 19;
 
 /// The kinematic chain, as selected by `--body`. The code is the same for every table.
 struct BodyTable {

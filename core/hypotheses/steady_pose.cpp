@@ -17,16 +17,48 @@ struct Stillness {
   int iterations = 3;
 };
 constexpr Stillness kStill{};
+// A foot that stands gives way by so much, comes down when contact is so likely, and leaves when it
+// is less likely than that.
+struct Standing {
+  double std_mm = 1, comes_down = 0.5, leaves = 0.2;
+};
+constexpr Standing kStanding{};
 
 using PointJacobian = Eigen::Matrix<double, 3, Eigen::Dynamic, Eigen::ColMajor, 3, kMaxDof>;
 
 }  // namespace
 
+void SteadyPose::Reset() {
+  held_.reset();
+  stands_ = {};
+}
+
 const PoseState& SteadyPose::Follow(const BodyModel& body, const PoseFilter& filter,
-                                    const PointStds& std_mm, double dt_s) {
+                                    const PointStds& std_mm, const Contacts& contacts,
+                                    double dt_s) {
+  FollowStands(body, filter.pose(), contacts, dt_s);
   const bool is_known = held_ && held_->dof() == filter.pose().dof();
   held_ = is_known ? Steady(body, filter, std_mm, dt_s) : filter.pose();
   return *held_;
+}
+
+void SteadyPose::FollowStands(const BodyModel& body, const PoseState& pose,
+                              const Contacts& contacts, double dt_s) {
+  const Posture posture = body.PostureAt(pose);
+  for (int i = 0; i < kContactCount; ++i) {
+    std::optional<Stand>& stand = stands_[i];
+    if (!(contacts[i] > (stand ? kStanding.leaves : kStanding.comes_down))) {
+      stand.reset();
+      continue;
+    }
+    const Vector3 now_W = body.PlaceOf(kContactPoints[i], posture);
+    if (!stand) {
+      stand = {now_W, dt_s};
+      continue;
+    }
+    stand->lasts_s += dt_s;
+    stand->place_W += dt_s / stand->lasts_s * (now_W - stand->place_W);
+  }
 }
 
 PoseState SteadyPose::Steady(const BodyModel& body, const PoseFilter& filter,
@@ -51,6 +83,13 @@ PoseState SteadyPose::Steady(const BodyModel& body, const PoseFilter& filter,
       const double inflation = (1 + scaled * scaled) * (1 + scaled * scaled);
       body.PointJacobian(posture, body.CarrierOf(static_cast<Point>(i)), now_W.col(i), J);
       equations.AddPoint(J, back_W, inflation * still_mm2);
+    }
+    for (int i = 0; i < kContactCount; ++i) {
+      if (!stands_[i]) continue;
+      const Point point = kContactPoints[i];
+      const Vector3 foot_W = body.PlaceOf(point, posture);
+      body.PointJacobian(posture, body.CarrierOf(point), foot_W, J);
+      equations.AddPoint(J, stands_[i]->place_W - foot_W, kStanding.std_mm * kStanding.std_mm);
     }
     const PoseStep gradient = prior * filter.pose().Minus(pose) + equations.gradient();
     const PoseCovariance information = prior + equations.information();

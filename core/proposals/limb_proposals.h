@@ -12,10 +12,10 @@
 namespace mocap {
 
 inline constexpr std::array<Segment, 4> kLimbEnds = {Segment::kHandL, Segment::kHandR,
-                                                     Segment::kFootL, Segment::kFootR};
+                                                     Segment::kToesL, Segment::kToesR};
 using LimbPair = std::pair<Segment, Segment>;
 inline constexpr std::array<LimbPair, 2> kLimbPairs = {
-    {{Segment::kHandL, Segment::kHandR}, {Segment::kFootL, Segment::kFootR}}};
+    {{Segment::kHandL, Segment::kHandR}, {Segment::kToesL, Segment::kToesR}}};
 
 /// Proposes poses for a hypothesis that differ from its own in some limbs. The results are appended
 /// to a list, the best first. Reuses its memory.

@@ -31,7 +31,7 @@ struct PoseRow {
   FurtherPoints further_W = FurtherPoints::Constant(std::numeric_limits<double>::quiet_NaN());
   FurtherStds further_std_mm = FurtherStds::Constant(std::numeric_limits<double>::quiet_NaN());
   /// How likely heels and toes touch the floor, 0 to 1; NaN: not known.
-  Contacts contacts = Contacts::Constant(std::numeric_limits<double>::quiet_NaN());
+  Contacts contacts = kUnknownContacts;
   /// In the order of BodyRecord::joints; NaN: not known. Empty if it was measured for another body.
   JointAngles joint_rad = {};
   /// Of the pose, 0 to 1; NaN: not known.

@@ -1,0 +1,61 @@
+#include "core/body/foot_contacts.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace mocap {
+namespace {
+
+// Speeds are taken over about this time [s]: noise of a frame is no motion.
+constexpr double kSpeedTime_s = 0.02;
+constexpr ContactOdds kHeelOdds{7.33, -0.152, -1.55}, kToeOdds{7.70, -0.060, -2.85};
+
+double ShareOf(const ContactOdds& odds, const FootMotion& motion) {
+  const double nats = odds.resting + odds.per_mm * motion.height_mm +
+                      odds.per_log_speed * std::log1p(motion.speed_mm_s / kStandingSpeed_mm_s);
+  return 1 / (1 + std::exp(-nats));
+}
+
+}  // namespace
+
+FootContacts::FootPoints FootContacts::PointsOf(const FurtherPoints& further_W) {
+  const auto pair = [&](Point left) {
+    return further_W.middleCols<2>(static_cast<int>(left) - kPointCount);
+  };
+  FootPoints points_W;
+  points_W << pair(Point::kHeelL), pair(Point::kToeL), pair(Point::kBallL);
+  return points_W;
+}
+
+Contacts FootContacts::Update(const BodyModel& body, const Posture& posture, double dt_s) {
+  const FootPoints now_W = PointsOf(body.FurtherPointsAt(posture));
+  if (!now_W.allFinite() || dt_s <= 0) {
+    before_W_.reset();
+    return kUnknownContacts;
+  }
+  if (!before_W_) {
+    before_W_ = now_W;
+    return kUnknownContacts;
+  }
+  const double share = 1 - std::exp(-dt_s / kSpeedTime_s);
+  const FootPoints moved_W = share * (now_W - *before_W_);
+  const auto motion_of = [&](int i) {
+    return FootMotion{now_W(2, i), moved_W.col(i).norm() / dt_s};
+  };
+  Contacts contacts;
+  for (int i = 0; i < kContactCount; ++i) {
+    motion_[i] = motion_of(i);
+    const bool is_heel = i < 2;
+    if (!is_heel) {
+      // A foot that rolls off stands on its ball, then on its toes.
+      const FootMotion ball = motion_of(i + 2);
+      motion_[i].height_mm = std::min(motion_[i].height_mm, ball.height_mm);
+      motion_[i].speed_mm_s = std::min(motion_[i].speed_mm_s, ball.speed_mm_s);
+    }
+    contacts[i] = ShareOf(is_heel ? kHeelOdds : kToeOdds, motion_[i]);
+  }
+  *before_W_ += moved_W;
+  return contacts;
+}
+
+}  // namespace mocap

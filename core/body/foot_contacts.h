@@ -1,0 +1,56 @@
+// Beyond the paper: which parts of the feet touch the floor, z = 0.
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <limits>
+#include <optional>
+
+#include "core/body/body_model.h"
+
+namespace mocap {
+
+/// How likely heels and toes touch the floor, 0 to 1, in the order of kContactPoints; NaN: not
+/// known.
+using Contacts = Eigen::Matrix<double, 1, kContactCount>;
+inline const Contacts kUnknownContacts =
+    Contacts::Constant(std::numeric_limits<double>::quiet_NaN());
+
+/// Odds of a contact by height and speed of a part of the foot, as `mocap benchmark --parts noise`
+/// measures them at tracked poses of simulated people: log odds are
+/// `resting + per_mm z + per_log_speed ln(1 + v / kStandingSpeed_mm_s)` [nats].
+struct ContactOdds {
+  double resting, per_mm, per_log_speed;
+};
+
+/// How fast the points of a foot that stands seem to move [mm/s].
+inline constexpr double kStandingSpeed_mm_s = 30;
+
+/// Height above the floor and speed of a heel or of the toes.
+struct FootMotion {
+  double height_mm, speed_mm_s;
+};
+
+/// Tells contacts by the motion of a body's feet.
+class FootContacts {
+ public:
+  /// Forgets the frame before.
+  void Reset() { before_W_.reset(); }
+
+  /// Returns the contacts of a frame. Unknown without a frame before, and for a body whose feet do
+  /// not turn.
+  Contacts Update(const BodyModel& body, const Posture& posture, double dt_s);
+
+  /// The motion that Update judges, of heels and toes.
+  const std::array<FootMotion, kContactCount>& motion() const { return motion_; }
+
+ private:
+  // Heels, toes and balls of the left and the right foot.
+  using FootPoints = Eigen::Matrix<double, 3, 6>;
+  static FootPoints PointsOf(const FurtherPoints& further_W);
+
+  std::optional<FootPoints> before_W_;  ///< Follows the points.
+  std::array<FootMotion, kContactCount> motion_{};
+};
+
+}  // namespace mocap
