@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
@@ -123,9 +125,14 @@ class TruthOfPeople {
     const std::int64_t time_ns = studio_.NominalTime(frame);
     const int people = static_cast<int>(stays_.size());
     for (int i = 0; i < people; ++i) {
-      if (people == 1 || IsThere(i, frame))
-        writer.WriteTruth(frame, time_ns, truth_.At(time_ns, i), i);
+      if (people == 1 || IsThere(i, frame)) WriteRow(frame, time_ns, i, writer);
     }
+  }
+
+  static TruthColumns Columns() {
+    return {.points = {kSimulatedJointNames.begin(), kSimulatedJointNames.end()},
+            .rotations = {kTurnedSegmentNames.begin(), kTurnedSegmentNames.end()},
+            .contacts = {kContactNames.begin(), kContactNames.end()}};
   }
 
   void Finish(TakeWriter& writer) const {
@@ -135,6 +142,16 @@ class TruthOfPeople {
   }
 
  private:
+  void WriteRow(std::int64_t frame, std::int64_t time_ns, int person, TakeWriter& writer) const {
+    std::array<Vector3, kTurnedSegmentNames.size()> rotations;
+    std::ranges::transform(truth_.RotationsAt(time_ns, person), rotations.begin(), LogRotation);
+    writer.WriteTruth(frame, time_ns,
+                      {.points_W = truth_.At(time_ns, person),
+                       .rotations = rotations,
+                       .contacts = truth_.ContactsAt(time_ns, person)},
+                      person);
+  }
+
   static void Extend(std::vector<FrameSpan>& spans, std::int64_t frame) {
     if (spans.empty() || spans.back().last + 1 < frame) spans.push_back({frame, frame});
     spans.back().last = frame;
@@ -182,8 +199,7 @@ void SimulatePeople(const SimulateOptions& options) {
   const SimulatedStudio studio(options.studio);
   TakeWriter writer(options.out, Describe(options, studio.cameras()));
   UnfinishedFolder unfinished(writer.partial_folder());
-  const std::vector<std::string> names(kSimulatedJointNames.begin(), kSimulatedJointNames.end());
-  writer.SetTruthPoints(names, options.studio.people);
+  writer.SetTruthColumns(TruthOfPeople::Columns(), options.studio.people);
   WriteBackgrounds(studio, writer);
   WriteFrames(options, studio, writer);
   writer.Finish();

@@ -181,13 +181,15 @@ class TakeWriter::Impl {
     return *video;
   }
 
-  void SetTruthPoints(std::span<const std::string> names, int people) {
+  void SetTruthColumns(const TruthColumns& columns, int people) {
     MOCAP_CHECK(truths_.empty() && people >= 1);
+    truth_columns_ = columns;
     std::string header = "frame,timestamp_ns";
-    for (const std::string& name : names) {
-      for (const char* axis : {"_x_mm", "_y_mm", "_z_mm"}) header += ',' + name + axis;
-    }
-    truth_points_ = names.size();
+    for (const std::string& point : columns.points)
+      for (const std::string& column : PointColumns(point)) header += ',' + column;
+    for (const std::string& segment : columns.rotations)
+      for (const std::string& column : RotationColumns(segment)) header += ',' + column;
+    for (const std::string& point : columns.contacts) header += ',' + ContactColumn(point);
     truths_.reserve(people);
     for (int i = 0; i < people; ++i) {
       const TakeLayout folder = people == 1 ? layout_ : layout_.Person(i + 1);
@@ -197,13 +199,16 @@ class TakeWriter::Impl {
     }
   }
 
-  void WriteTruth(std::int64_t frame, std::int64_t capture_ns, std::span<const Vector3> points_W,
-                  int person) {
-    MOCAP_CHECK(points_W.size() == truth_points_);
+  void WriteTruth(std::int64_t frame, std::int64_t capture_ns, const TruthRow& truth, int person) {
+    MOCAP_CHECK(truth.points_W.size() == truth_columns_.points.size() &&
+                truth.rotations.size() == truth_columns_.rotations.size() &&
+                truth.contacts.size() == truth_columns_.contacts.size());
     std::string row = std::to_string(frame) + ',' + std::to_string(capture_ns);
-    for (const Vector3& point : points_W) {
-      for (const double value : point) row += ',' + Fixed(value, 3);
-    }
+    for (const Vector3& point : truth.points_W)
+      for (const double mm : point) row += ',' + Fixed(mm, 3);
+    for (const Vector3& rotation : truth.rotations)
+      for (const double rad : rotation) row += ',' + Fixed(rad, 6);
+    for (const bool contact : truth.contacts) row += contact ? ",1" : ",0";
     truths_.at(person).table.Write(row + '\n');
   }
 
@@ -291,7 +296,7 @@ class TakeWriter::Impl {
     TableFile table;
   };
   std::vector<Truth> truths_;
-  std::size_t truth_points_ = 0;
+  TruthColumns truth_columns_;
 };
 
 void RequireNewTake(const std::filesystem::path& folder, const std::filesystem::path& partial) {
@@ -323,12 +328,12 @@ void TakeWriter::WriteUnseen(int camera, const Silhouette& unseen) {
 void TakeWriter::WriteMask(int camera, ImageView<const std::uint8_t> mask) {
   impl_->mask(camera).Write(mask);
 }
-void TakeWriter::SetTruthPoints(std::span<const std::string> names, int people) {
-  impl_->SetTruthPoints(names, people);
+void TakeWriter::SetTruthColumns(const TruthColumns& columns, int people) {
+  impl_->SetTruthColumns(columns, people);
 }
-void TakeWriter::WriteTruth(std::int64_t frame, std::int64_t capture_ns,
-                            std::span<const Vector3> points_W, int person) {
-  impl_->WriteTruth(frame, capture_ns, points_W, person);
+void TakeWriter::WriteTruth(std::int64_t frame, std::int64_t capture_ns, const TruthRow& truth,
+                            int person) {
+  impl_->WriteTruth(frame, capture_ns, truth, person);
 }
 void TakeWriter::WriteTruthSizes(const TruthSizes& sizes, int person) {
   impl_->WriteTruthSizes(sizes, person);

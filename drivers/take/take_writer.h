@@ -12,6 +12,7 @@
 #include "core/image.h"
 #include "core/reconstruction/camera/camera_model.h"
 #include "core/reconstruction/silhouette/silhouette.h"
+#include "drivers/take/truth_columns.h"
 #include "drivers/take/video_writer.h"
 
 namespace mocap {
@@ -78,15 +79,15 @@ class TakeWriter {
   /// Appends a true mask: 0 background, 255 person; one per frame.
   void WriteMask(int camera, ImageView<const std::uint8_t> mask);
 
-  /// Sets the point names of truth.csv; call it before the first WriteTruth.
+  /// Begins truth.csv; call it before the first WriteTruth.
   /// @param people  if several, each has its own file: person-1/truth.csv and so on.
-  void SetTruthPoints(std::span<const std::string> names, int people = 1);
-  /// Appends a row of truth: p_WQ of each named point [mm].
+  void SetTruthColumns(const TruthColumns& columns, int people = 1);
+  /// Appends a row of truth.
   /// @param frame   increases from row to row.
   /// @param person  from 0.
-  void WriteTruth(std::int64_t frame, std::int64_t capture_ns, std::span<const Vector3> points_W,
+  void WriteTruth(std::int64_t frame, std::int64_t capture_ns, const TruthRow& truth,
                   int person = 0);
-  /// @pre SetTruthPoints() was called.
+  /// @pre SetTruthColumns() was called.
   void WriteTruthSizes(const TruthSizes& sizes, int person = 0);
 
   /// The folder during writing.

@@ -13,6 +13,18 @@ JointPositions SimulatedTruth::At(std::int64_t capture_ns, int person) const {
   return simulation::PointsOf(people_[person].body(), people_[person].BonesAt(capture_ns));
 }
 
+simulation::FloorContacts SimulatedTruth::ContactsAt(std::int64_t capture_ns, int person) const {
+  constexpr std::int64_t kApart_ns = 1'000'000;
+  const simulation::Person& who = people_[person];
+  return simulation::ContactsOf(who.body(), who.BonesAt(capture_ns),
+                                who.BonesAt(capture_ns + kApart_ns), 1e-9 * kApart_ns);
+}
+
+SegmentRotations SimulatedTruth::RotationsAt(std::int64_t capture_ns, int person) const {
+  const simulation::BonePoses bones = people_[person].BonesAt(capture_ns);
+  return {bones[simulation::kHead].R, bones[simulation::kHandL].R, bones[simulation::kHandR].R};
+}
+
 TruthSizes SimulatedTruth::Sizes(int person) const {
   const simulation::Anthropometry& body = people_[person].body();
   const JointPositions upright =

@@ -68,7 +68,7 @@ inline void WriteBoxTake(const std::filesystem::path& take) {
     const std::string name(kPointNames[static_cast<int>(point)]);
     joints.push_back(name.starts_with("foot") ? "ankle" + name.substr(4) : name);
   }
-  writer.SetTruthPoints(joints);
+  writer.SetTruthColumns({joints});
   for (int camera = 0; camera < 3; ++camera) {
     for (int i = 0; i < 12; ++i) {
       writer.WriteBackground(camera, Picture(false, 50 * camera + i).view(), i * kPeriodNs);
@@ -83,8 +83,8 @@ inline void WriteBoxTake(const std::filesystem::path& take) {
                         time_ns + 1'000'000 * camera);
     }
     const ScoredPoints points = ScoredPointsOf(TruePoints(frame));
-    writer.WriteTruth(frame, time_ns,
-                      std::vector<Vector3>(points.colwise().begin(), points.colwise().end()));
+    const std::vector<Vector3> points_W(points.colwise().begin(), points.colwise().end());
+    writer.WriteTruth(frame, time_ns, {points_W});
   }
   writer.WriteTruthSizes({1700, 0, {{"torso_mm", 550}}});
   writer.Finish();

@@ -55,7 +55,9 @@ TEST_F(Simulate, WritesATakeThatOpensWithTruthAndMasks) {
   const std::string truth = Content(take / "truth.csv");
   EXPECT_EQ(truth.substr(0, truth.find("_z_mm")),
             "frame,timestamp_ns,pelvis_x_mm,pelvis_y_mm,pelvis");
-  EXPECT_NE(truth.find(",toe_r_x_mm,toe_r_y_mm,toe_r_z_mm\n0,1000000000000,"), std::string::npos);
+  EXPECT_NE(
+      truth.find(",contact_heel_l,contact_heel_r,contact_toe_l,contact_toe_r\n0,1000000000000,"),
+      std::string::npos);
   EXPECT_NE(Content(take / "truth.toml").find("lower_arm_mm"), std::string::npos);
 }
 

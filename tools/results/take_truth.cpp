@@ -37,6 +37,10 @@ class TruthTable {
     if (column == columns_.end()) return std::nullopt;
     return static_cast<std::size_t>(column - columns_.begin());
   }
+  std::optional<std::array<std::size_t, 3>> FindAll(const std::array<std::string, 3>& names) const {
+    if (!Find(names[0])) return std::nullopt;
+    return std::array{Column(names[0]), Column(names[1]), Column(names[2])};
+  }
   /// @pre  no row has been read.
   std::size_t Column(const std::string& name) const {
     const std::optional<std::size_t> column = Find(name);
@@ -51,16 +55,49 @@ class TruthTable {
   std::vector<std::string> columns_;
 };
 
+Vector3 VectorIn(const TableRow& row, const std::array<std::size_t, 3>& columns) {
+  return {row.Number<double>(columns[0]), row.Number<double>(columns[1]),
+          row.Number<double>(columns[2])};
+}
+
+/// Reads what a table may have of hands, feet and head.
+class ExtremityColumns {
+ public:
+  explicit ExtremityColumns(const TruthTable& table) {
+    for (const std::string_view point : kFurtherPointNames)
+      points_.push_back(table.FindAll(PointColumns(point)));
+    for (const std::string_view segment : kTurnedSegmentNames)
+      rotations_.push_back(table.FindAll(RotationColumns(segment)));
+    for (const std::string_view point : kContactNames)
+      contacts_.push_back(table.Find(ContactColumn(point)));
+  }
+
+  TrueExtremities Read(const TableRow& row) const {
+    TrueExtremities truth;
+    for (std::size_t i = 0; i < points_.size(); ++i)
+      if (points_[i]) truth.points_W.col(i) = VectorIn(row, *points_[i]);
+    for (std::size_t i = 0; i < rotations_.size(); ++i)
+      if (rotations_[i]) truth.rotations.col(i) = VectorIn(row, *rotations_[i]);
+    for (std::size_t i = 0; i < contacts_.size(); ++i)
+      if (contacts_[i]) truth.contacts[i] = row.Number<double>(*contacts_[i]);
+    return truth;
+  }
+
+ private:
+  std::vector<std::optional<std::array<std::size_t, 3>>> points_, rotations_;
+  std::vector<std::optional<std::size_t>> contacts_;
+};
+
 void ReadFrames(const std::filesystem::path& file, double ankle_to_sole_mm, TakeTruth& truth) {
   TruthTable table(file);
   const std::optional<std::size_t> number_column = table.Find("frame");
   const std::size_t time_column = table.Column("timestamp_ns");
   std::array<std::array<std::size_t, 3>, kScoredPointCount> columns;
   for (int i = 0; i < kScoredPointCount; ++i) {
-    const std::string joint = RigJoint(kScoredPoints[i]);
-    columns[i] = {table.Column(joint + "_x_mm"), table.Column(joint + "_y_mm"),
-                  table.Column(joint + "_z_mm")};
+    const std::array<std::string, 3> names = PointColumns(RigJoint(kScoredPoints[i]));
+    columns[i] = {table.Column(names[0]), table.Column(names[1]), table.Column(names[2])};
   }
+  const ExtremityColumns extremities(table);
   std::vector<ScoredFrame>& frames = truth.frames;
   while (const std::optional<TableRow> row = table.NextRow()) {
     ScoredFrame frame;
@@ -70,19 +107,31 @@ void ReadFrames(const std::filesystem::path& file, double ankle_to_sole_mm, Take
                  std::to_string(frames.back().timestamp_ns) +
                  "; expected times in nanoseconds that increase");
     }
-    for (int i = 0; i < kScoredPointCount; ++i) {
-      for (int axis = 0; axis < 3; ++axis) {
-        frame.points_W(axis, i) = row->Number<double>(columns[i][axis]);
-      }
-    }
+    for (int i = 0; i < kScoredPointCount; ++i) frame.points_W.col(i) = VectorIn(*row, columns[i]);
     ProlongShanks(ankle_to_sole_mm, frame.points_W);
     frames.push_back(std::move(frame));
+    truth.extremities.push_back(extremities.Read(*row));
     truth.numbers.push_back(number_column ? row->Number<std::int64_t>(*number_column)
                                           : static_cast<std::int64_t>(truth.numbers.size()));
   }
 }
 
 }  // namespace
+
+void TakeTruth::Add(const TakeTruth& other, std::size_t frame) {
+  frames.push_back(other.frames[frame]);
+  numbers.push_back(other.numbers[frame]);
+  if (!other.extremities.empty()) extremities.push_back(other.extremities[frame]);
+}
+
+void TakeTruth::RemoveFirst(std::size_t count) {
+  const auto shorten = [count](auto& list) {
+    list.erase(list.begin(), list.begin() + static_cast<std::ptrdiff_t>(count));
+  };
+  shorten(frames);
+  shorten(numbers);
+  if (!extremities.empty()) shorten(extremities);
+}
 
 std::string RigJoint(Point point) {
   if (point == Point::kFootL) return "ankle_l";

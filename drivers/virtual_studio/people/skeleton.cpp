@@ -7,8 +7,6 @@
 namespace mocap::simulation {
 namespace {
 
-// The toes above the sole, of the stature.
-constexpr double kToeHeight = 0.012;
 // The knuckles, of the hand (de Leva 1996: 86 of 188 mm).
 constexpr double kKnucklesShare = 0.46;
 

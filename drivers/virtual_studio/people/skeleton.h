@@ -130,6 +130,9 @@ using TruePoints = std::array<Vector3, kTruthPointCount>;
 /// Computes the truth points from bone poses.
 TruePoints PointsOf(const Anthropometry& body, const BonePoses& bones);
 
+/// The joint of the toes and their tip above the sole, of the stature.
+inline constexpr double kToeHeight = 0.012;
+
 /// Middle of the skull in the head's frame.
 Vector3 HeadCenterInHead(const Anthropometry& body);
 

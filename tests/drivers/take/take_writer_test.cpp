@@ -119,16 +119,19 @@ TEST_F(WrittenTake, WhatWasNeverSeenEmptyIsBesideTheBackground) {
 
 TEST_F(WrittenTake, TruthHasOneRowAFrame) {
   TakeWriter writer(layout_.folder, SmallDescription(take_));
-  const std::array<std::string, 2> names = {"neck", "knee_l"};
-  writer.SetTruthPoints(names);
+  writer.SetTruthColumns({{"neck", "knee_l"}, {"head"}, {"heel_l"}});
   const std::array<Vector3, 2> points = {Vector3(1, -2.5, 1000.1234), Vector3(0, 1e-9, 3)};
-  writer.WriteTruth(0, 10, points);
-  writer.WriteTruth(1, 20, points);
+  const std::array<Vector3, 1> rotations = {Vector3(0, 0.25, -3)};
+  const std::array<bool, 1> contacts = {true};
+  writer.WriteTruth(0, 10, {points, rotations, contacts});
+  writer.WriteTruth(1, 20, {points, rotations, contacts});
   writer.WriteTruthSizes({1750, 80.5, {{"torso_mm", 588.25}, {"calf_mm", 500}}});
   writer.Finish();
-  const std::string row = ",1.000,-2.500,1000.123,0.000,0.000,3.000\n";
+  const std::string row =
+      ",1.000,-2.500,1000.123,0.000,0.000,3.000,0.000000,0.250000,-3.000000,1\n";
   EXPECT_EQ(ReadText(layout_.TruthTable()),
-            "frame,timestamp_ns,neck_x_mm,neck_y_mm,neck_z_mm,knee_l_x_mm,knee_l_y_mm,knee_l_z_mm\n"
+            "frame,timestamp_ns,neck_x_mm,neck_y_mm,neck_z_mm,knee_l_x_mm,knee_l_y_mm,knee_l_z_mm,"
+            "head_rotation_x_rad,head_rotation_y_rad,head_rotation_z_rad,contact_heel_l\n"
             "0,10" +
                 row + "1,20" + row);
   EXPECT_EQ(ReadText(layout_.TruthSizes()),

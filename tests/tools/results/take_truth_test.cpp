@@ -74,6 +74,30 @@ TEST_F(TakeTruthTest, PutsTheFootOnTheSoleUnderTheAnkle) {
   EXPECT_EQ(truth->lengths_mm.at("torso"), 560.5);
 }
 
+TEST_F(TakeTruthTest, ReadsWhatATableHasOfHandsFeetAndHead) {
+  const auto widened = [](std::string line, const std::string& cells) {
+    line.pop_back();
+    return line + cells + '\n';
+  };
+  Write("truth.csv",
+        widened(Header(),
+                ",heel_r_x_mm,heel_r_y_mm,heel_r_z_mm,head_rotation_x_rad,head_rotation_y_rad,"
+                "head_rotation_z_rad,contact_toe_l") +
+            widened(Row(0, 100), ",1,2,3,0.1,0.2,0.3,1"));
+  const auto truth = ReadTakeTruth(take_);
+  ASSERT_TRUE(truth);
+  ASSERT_EQ(truth->extremities.size(), 1u);
+  const TrueExtremities& extremities = truth->extremities.front();
+  EXPECT_EQ(extremities.points_W.col(static_cast<int>(Point::kHeelR) - kPointCount),
+            Vector3(1, 2, 3));
+  EXPECT_EQ(extremities.points_W.col(static_cast<int>(Point::kAnkleL) - kPointCount),
+            Vector3(10, 100, 100));
+  EXPECT_EQ(extremities.rotations.col(0), Vector3(0.1, 0.2, 0.3));
+  EXPECT_EQ(extremities.contacts[2], 1);
+  EXPECT_TRUE(std::isnan(extremities.contacts[0]));
+  EXPECT_TRUE(extremities.rotations.rightCols<2>().array().isNaN().all());
+}
+
 TEST_F(TakeTruthTest, IsEmptyForATakeWithoutTruth) { EXPECT_FALSE(ReadTakeTruth(take_)); }
 
 TEST_F(TakeTruthTest, FindsColumnsByName) {
