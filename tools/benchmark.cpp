@@ -24,6 +24,7 @@
 #include "tools/accuracy/paired_comparison.h"
 #include "tools/accuracy/paper_report.h"
 #include "tools/accuracy/score_table.h"
+#include "tools/report/extremity_text.h"
 
 namespace mocap {
 namespace {
@@ -88,7 +89,8 @@ void RunBenchmark(const BenchmarkOptions& options) {
   if (HasTakesOfTheGrid(options)) PrintNow(AccuracyHeader());
   if (options.Wants("grid")) {
     benchmark.grid = RunGrid(options);
-    PrintNow("\n" + AccuracySummaryText(Summarize(benchmark.grid)));
+    PrintNow("\n" + AccuracySummaryText(Summarize(benchmark.grid)) +
+             ExtremityText(MeanExtremities(benchmark.grid)));
   }
   benchmark.sweeps = RunSweeps(options);
   if (options.Wants(kStudioPart)) {

@@ -23,11 +23,18 @@ AccuracyRow RowOf(const AccuracyTrial& trial, const TrialOutcome& outcome) {
   row.longest_wrong_stretch = outcome.longest_wrong_stretch;
   row.found_after = outcome.evaluation.first_tracked_pose;
   row.longest_loss = outcome.longest_loss;
+  row.extremities = outcome.evaluation.extremities;
   for (const LengthPair& pair : outcome.evaluation.lengths) {
     row.length_error_mm += std::abs(pair.acquired_mm - pair.true_mm) /
                            static_cast<double>(outcome.evaluation.lengths.size());
   }
   return row;
+}
+
+ExtremityAccuracy MeanExtremities(const std::vector<AccuracyRow>& rows) {
+  std::vector<ExtremityAccuracy> takes;
+  for (const AccuracyRow& row : rows) takes.push_back(row.extremities);
+  return MeanOf(takes);
 }
 
 AccuracySummary Summarize(const std::vector<AccuracyRow>& rows) {

@@ -23,6 +23,7 @@ struct AccuracyRow {
   int longest_wrong_stretch = 0;  ///< In frame sets, as in TrialOutcome.
   int found_after = -1;           ///< Frame sets until tracked for the first time; -1: never.
   int longest_loss = 0;           ///< In frame sets, as in TrialOutcome.
+  ExtremityAccuracy extremities = {};
 };
 
 /// Summarizes what a trial gave.
@@ -38,6 +39,9 @@ struct AccuracySummary {
   double median_acquisition_frames = 0;
   int most_acquisition_frames = 0;
 };
+
+/// Of hands, feet and head. @param rows  may be none.
+ExtremityAccuracy MeanExtremities(const std::vector<AccuracyRow>& rows);
 
 /// A longer run of wrong poses is more than a glitch.
 inline constexpr int kLongestGlitch = 5;

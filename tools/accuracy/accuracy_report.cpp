@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <vector>
 
+#include "tools/report/extremity_text.h"
 #include "tools/report/report_page.h"
 
 namespace mocap {
@@ -132,7 +133,9 @@ std::string AccuracyMarkdown(const AccuracyBenchmark& benchmark) {
       "points\nand 8 angles, as in `mocap evaluate`; *wrong* is the longest run of tracked frame "
       "sets with a mean error above {:.0f} mm.\n\n",
       benchmark.seconds, kWrongMm);
-  if (!benchmark.grid.empty()) text += AccuracySummaryText(Summarize(benchmark.grid));
+  if (!benchmark.grid.empty())
+    text += AccuracySummaryText(Summarize(benchmark.grid)) +
+            ExtremityMarkdown(MeanExtremities(benchmark.grid));
   if (!benchmark.sweeps.empty()) {
     text +=
         "\n## What makes it worse\nEach line is the mean over walking, dancing and sitting "

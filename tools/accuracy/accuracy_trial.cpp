@@ -59,6 +59,7 @@ TakeTruth TruthOf(const SimulatedStudioOptions& options, const std::vector<PoseR
   for (const PoseRow& row : poses) {
     truth.frames.push_back({.timestamp_ns = row.timestamp_ns,
                             .points_W = TrueScoredPoints(simulated, row.timestamp_ns)});
+    truth.extremities.push_back(TrueExtremitiesOf(simulated, row.timestamp_ns));
   }
   return truth;
 }

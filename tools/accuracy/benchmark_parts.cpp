@@ -10,6 +10,7 @@
 #include "tools/accuracy/paper_report.h"
 #include "tools/accuracy/sweep_plan.h"
 #include "tools/remarks.h"
+#include "tools/report/extremity_text.h"
 
 namespace mocap {
 namespace {
@@ -174,7 +175,7 @@ std::vector<VarietyGrid> RunVariety(const BenchmarkOptions& options) {
                                           options.FirstsOr(kFirsts)));
       PrintNow(VarietyLine(grid.rows.back()));
     }
-    PrintNow(VarietySummaryText(grid.rows));
+    PrintNow(VarietySummaryText(grid.rows) + ExtremityText(MeanExtremities(grid)));
   }
   return grids;
 }
@@ -190,7 +191,7 @@ std::vector<ScoredTakes> RunTakes(const BenchmarkOptions& options,
       rows.takes.push_back(RunTakeTrial(take, options.FirstsOr(kTakeFirsts)));
       PrintNow(TakeLines(rows.takes.back()));
     }
-    PrintNow(TakesSummaryText(rows));
+    PrintNow(TakesSummaryText(rows) + ExtremityText(MeanExtremities(rows)));
   }
   return all;
 }

@@ -1,4 +1,4 @@
-// True points of a simulated person, as scores need them.
+// Truth of a simulated person, as scores need it.
 #pragma once
 
 #include <algorithm>
@@ -20,6 +20,22 @@ inline ScoredPoints TrueScoredPoints(const SimulatedTruth& truth, std::int64_t c
   }
   ProlongShanks(truth.Sizes(person).ankle_to_sole_mm, points_W);
   return points_W;
+}
+
+inline TrueExtremities TrueExtremitiesOf(const SimulatedTruth& truth, std::int64_t capture_ns) {
+  const JointPositions joints = truth.At(capture_ns);
+  TrueExtremities extremities;
+  for (int i = 0; i < kFurtherPointCount; ++i) {
+    const auto joint = std::ranges::find(kSimulatedJointNames, kFurtherPointNames[i]);
+    if (joint == kSimulatedJointNames.end()) continue;
+    extremities.points_W.col(i) = joints[joint - kSimulatedJointNames.begin()];
+  }
+  const simulation::FloorContacts contacts = truth.ContactsAt(capture_ns);
+  std::ranges::copy(contacts, extremities.contacts.begin());
+  const SegmentRotations rotations = truth.RotationsAt(capture_ns);
+  for (std::size_t i = 0; i < rotations.size(); ++i)
+    extremities.rotations.col(i) = LogRotation(rotations[i]);
+  return extremities;
 }
 
 }  // namespace mocap

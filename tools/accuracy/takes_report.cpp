@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "tools/accuracy/takes_trial.h"
+#include "tools/report/extremity_text.h"
 
 namespace mocap {
 namespace {
@@ -48,6 +49,13 @@ std::string FiguresOf(const std::optional<PoseErrors>& errors, std::string_view 
 
 }  // namespace
 
+ExtremityAccuracy MeanExtremities(const ScoredTakes& rows) {
+  std::vector<ExtremityAccuracy> people;
+  for (const ScoredTake& take : rows.takes)
+    for (const TakePerson& person : take.people) people.push_back(person.extremities);
+  return MeanOf(people);
+}
+
 std::string TakesHeader() {
   return fmt::format("{:<32}{:>9}{:>9}{:>9}{:>10}{:>6}{:>11}{:>10}\n", "take", "mean mm", "95 % mm",
                      "degrees", "spread mm", "sets", "tracked %", "switches");
@@ -55,7 +63,7 @@ std::string TakesHeader() {
 
 std::string TakeLines(const ScoredTake& row) {
   std::string text;
-  for (const auto& [name, score, switches] : row.people) {
+  for (const auto& [name, score, switches, extremities] : row.people) {
     text += fmt::format(
         "{:<32}{}{:>10.1f}{:>6}{:>11.2f}{:>10}\n", name,
         FiguresOf(score.Mean(), "{:>9.1f}{:>9.1f}{:>9.2f}", "    never tracked          "),
@@ -87,11 +95,12 @@ std::string TakesMarkdown(const std::vector<ScoredTakes>& folders, int firsts) {
         "switches |\n|---|---|---|---|---|---|---|---|\n",
         TakesSummaryText(rows));
     for (const ScoredTake& take : rows.takes) {
-      for (const auto& [name, score, switches] : take.people)
+      for (const auto& [name, score, switches, extremities] : take.people)
         text += fmt::format("| {} | {} | {:.1f} | {} | {:.2f} | {} |\n", name,
                             FiguresOf(score.Mean(), "{:.1f} | {:.1f} | {:.2f}", "never | | "),
                             score.spread_mm(), score.sets, 100 * score.tracked_share(), switches);
     }
+    text += ExtremityMarkdown(MeanExtremities(rows));
   }
   return text;
 }

@@ -109,8 +109,7 @@ void KeepFromTime(std::int64_t from_ns, std::vector<TruePerson>& people) {
     const auto first = std::ranges::find_if(
         person.truth.frames, [from_ns](const ScoredFrame& f) { return f.timestamp_ns >= from_ns; });
     const auto before = first - person.truth.frames.begin();
-    person.truth.frames.erase(person.truth.frames.begin(), first);
-    person.truth.numbers.erase(person.truth.numbers.begin(), person.truth.numbers.begin() + before);
+    person.truth.RemoveFirst(static_cast<std::size_t>(before));
     person.covered.erase(person.covered.begin(), person.covered.begin() + before);
   }
   std::erase_if(people, [](const TruePerson& person) { return person.truth.frames.empty(); });
@@ -131,6 +130,7 @@ class TakeScorer {
       : truth_(std::move(truth)),
         several_people_(several_people),
         errors_(truth_.size()),
+        extremities_(truth_.size()),
         switches_(truth_.size()) {}
 
   void Add(PeopleResults people) {
@@ -144,7 +144,8 @@ class TakeScorer {
       const std::vector<std::int64_t> wanted = WantedFrames(truth_[i]);
       if (wanted.empty()) continue;
       row.people.push_back({several_people_ ? take + '/' + truth_[i].name : take,
-                            ScoreFirsts(errors_[i], wanted), switches_[i]});
+                            ScoreFirsts(errors_[i], wanted), switches_[i],
+                            MeanOf(extremities_[i])});
     }
     return row;
   }
@@ -155,6 +156,7 @@ class TakeScorer {
     const Evaluation evaluation = EvaluateOne(std::move(people.front().second), truth_);
     for (const FrameError& error : evaluation.accuracy->frames)
       errors_.front().back()[error.truth] = error;
+    extremities_.front().push_back(evaluation.extremities);
   }
 
   void AddSeveral(PeopleResults people) {
@@ -163,6 +165,8 @@ class TakeScorer {
     for (std::size_t i = 0; i < truth_.size(); ++i) switches_[i] += evaluation.followed[i].switches;
     for (const TrackedPerson& person : evaluation.people) {
       if (!person.evaluation.accuracy) continue;
+      extremities_[static_cast<std::size_t>(person.true_person)].push_back(
+          person.evaluation.extremities);
       for (const FrameError& error : person.evaluation.accuracy->frames) {
         const PersonMatch& match = person.matches[static_cast<std::size_t>(error.truth)];
         errors_[static_cast<std::size_t>(match.person)].back()[match.frame] = error;
@@ -172,7 +176,8 @@ class TakeScorer {
 
   const std::vector<TruePerson> truth_;
   const bool several_people_;
-  std::vector<std::vector<ErrorsBySet>> errors_;  ///< Of each person, by run.
+  std::vector<std::vector<ErrorsBySet>> errors_;             ///< Of each person, by run.
+  std::vector<std::vector<ExtremityAccuracy>> extremities_;  ///< Likewise.
   std::vector<int> switches_;
   int stray_sets_ = 0;
 };

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "tools/accuracy/first_sets.h"
+#include "tools/report/extremity_accuracy.h"
 
 namespace mocap {
 
@@ -24,7 +25,8 @@ std::vector<TakesFolder> FoldersOfTakes(const std::vector<std::filesystem::path>
 struct TakePerson {
   std::string name;  ///< The take's; of several people also the person's: two_meet/person-1.
   PersonScore score;
-  int switches = 0;  ///< Of all runs.
+  int switches = 0;                    ///< Of all runs.
+  ExtremityAccuracy extremities = {};  ///< Mean of the runs.
 };
 
 /// Several runs on one take.
@@ -44,6 +46,9 @@ struct ScoredTakes {
 /// @param firsts  number of runs, at least one.
 /// @throws SetupError  when the take cannot be opened, or has fewer sets than that.
 ScoredTake RunTakeTrial(const std::filesystem::path& take, int firsts);
+
+/// Of hands, feet and head: means over the people of a folder.
+ExtremityAccuracy MeanExtremities(const ScoredTakes& rows);
 
 /// Header of TakeLines' columns.
 std::string TakesHeader();

@@ -9,6 +9,7 @@
 #include "core/errors.h"
 #include "drivers/virtual_studio/people/costume.h"
 #include "drivers/virtual_studio/random.h"
+#include "tools/report/extremity_text.h"
 
 namespace mocap {
 namespace {
@@ -129,6 +130,12 @@ VarietyRow RunVarietyTrial(int number, double seconds, const Filming& filming, i
   return row;
 }
 
+ExtremityAccuracy MeanExtremities(const VarietyGrid& grid) {
+  std::vector<AccuracyRow> rows;
+  for (const VarietyRow& row : grid.rows) rows.push_back(row.accuracy);
+  return MeanExtremities(rows);
+}
+
 std::string VarietyHeader() {
   return fmt::format("{:>6} {:<7}{:>8}{:>9}{:>9}{:>9}{:>10}{:>9}{:>8}{:>7}  {}\n", "number",
                      "motion", "stature", "mean mm", "95 % mm", "degrees", "spread mm", "found s",
@@ -165,6 +172,10 @@ std::string VarietyMarkdown(std::span<const VarietyGrid> grids) {
     text += fmt::format("| {} | {} | {} | {} | {} | {} | {:.1f} | {:.1f} |\n", filming.label,
                         rows.size(), counts.never, counts.late, counts.lost, counts.wrong,
                         counts.mean_mm, counts.worst_mm);
+  }
+  for (const VarietyGrid& grid : grids) {
+    const std::string extremities = ExtremityMarkdown(MeanExtremities(grid));
+    if (!extremities.empty()) text += "\nFilmed at " + grid.filming.label + ":\n" + extremities;
   }
   for (const auto& [filming, rows] : grids) {
     text += fmt::format(

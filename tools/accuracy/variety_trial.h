@@ -45,6 +45,9 @@ AccuracyTrial VarietyTrialOf(int number, double seconds, const Filming& filming)
 /// @throws SetupError  when that many seconds have fewer sets.
 VarietyRow RunVarietyTrial(int number, double seconds, const Filming& filming, int firsts = 1);
 
+/// Of hands, feet and head, in each person's first run.
+ExtremityAccuracy MeanExtremities(const VarietyGrid& grid);
+
 /// Header of VarietyLine's columns.
 std::string VarietyHeader();
 std::string VarietyLine(const VarietyRow& row);

@@ -4,12 +4,12 @@
 #include <numbers>
 #include <opencv2/imgproc.hpp>
 
+#include "tools/kinematics/rest_body.h"
+
 namespace mocap {
 namespace {
 
 constexpr int kRingPoints = 20;
-
-Vector3 At(const PoseRow& row, Point point) { return row.points_W.col(static_cast<int>(point)); }
 
 /// Appends an ellipse about a centre with two half axes.
 void AddRing(const Vector3& center, const Vector3& a, const Vector3& b,

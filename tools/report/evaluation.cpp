@@ -66,6 +66,8 @@ Evaluation Evaluate(Result result, std::optional<TakeTruth> truth) {
     output.push_back({row.timestamp_ns, IsTracked(row), ScoredPointsOf(row.points_W)});
   }
   evaluation.accuracy = MeasureAccuracy(evaluation.truth->frames, output);
+  evaluation.extremities =
+      MeasureExtremities(evaluation.result, *evaluation.truth, evaluation.accuracy->frames);
   evaluation.certainty = MeasureCertainty(evaluation.result.poses, evaluation.accuracy);
   evaluation.lengths = CompareLengths(evaluation.result.body.sizes, *evaluation.truth);
   return evaluation;

@@ -10,6 +10,7 @@
 #include "core/evaluation/accuracy.h"
 #include "core/evaluation/precision.h"
 #include "tools/report/certainty.h"
+#include "tools/report/extremity_accuracy.h"
 #include "tools/results/result.h"
 #include "tools/results/take_truth.h"
 
@@ -35,6 +36,7 @@ struct Evaluation {
   // Only if the take has truth:
   std::optional<TakeTruth> truth;
   std::optional<Accuracy> accuracy;
+  ExtremityAccuracy extremities;
   std::vector<LengthPair> lengths;
 };
 

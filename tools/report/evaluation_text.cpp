@@ -5,6 +5,7 @@
 #include "core/degrees.h"
 #include "daemon/base/json.h"
 #include "drivers/printable_text.h"
+#include "tools/report/extremity_text.h"
 
 namespace mocap {
 namespace {
@@ -144,7 +145,7 @@ std::string EvaluationText(const Evaluation& evaluation) {
   }
   if (evaluation.accuracy)
     return text + AccuracyText(*evaluation.accuracy) + LengthsText(evaluation) +
-           ProbabilityTextOf(evaluation.certainty);
+           ExtremityText(evaluation.extremities) + ProbabilityTextOf(evaluation.certainty);
   return text + "accuracy    the take has no truth\n";
 }
 
@@ -165,6 +166,8 @@ void AddEvaluation(const Evaluation& evaluation, Json& json) {
   json["tracked_share"] = Rounded(accuracy ? accuracy->tracked_share : evaluation.tracked_share, 4);
   json["residual_mm"] = Rounded(evaluation.mean_residual_mm, 2);
   if (accuracy) AddAccuracy(evaluation, json);
+  if (!evaluation.extremities.IsEmpty())
+    json["extremities"] = ExtremityJson(evaluation.extremities);
   if (evaluation.certainty) json["certainty"] = CertaintyJson(*evaluation.certainty);
   if (evaluation.precision) json["precision"] = PrecisionJson(*evaluation.precision);
 }

@@ -62,11 +62,11 @@ void Score(const std::vector<TruePerson>& truth, TrackedPerson& person) {
   evaluation.truth = truth[static_cast<std::size_t>(person.true_person)].truth;
   evaluation.truth->frames.clear();
   evaluation.truth->numbers.clear();
+  evaluation.truth->extremities.clear();
   std::vector<ScoredFrame> output;
   for (const PersonMatch& match : person.matches) {
     const TakeTruth& other = truth[static_cast<std::size_t>(match.person)].truth;
-    evaluation.truth->frames.push_back(other.frames[static_cast<std::size_t>(match.frame)]);
-    evaluation.truth->numbers.push_back(other.numbers[static_cast<std::size_t>(match.frame)]);
+    evaluation.truth->Add(other, static_cast<std::size_t>(match.frame));
     const PoseRow& row = evaluation.result.poses[static_cast<std::size_t>(match.pose)];
     output.push_back({row.timestamp_ns, true, ScoredPointsOf(row.points_W)});
   }
@@ -74,6 +74,8 @@ void Score(const std::vector<TruePerson>& truth, TrackedPerson& person) {
   for (FrameError& error : evaluation.accuracy->frames) {
     error.pose = person.matches[static_cast<std::size_t>(error.pose)].pose;
   }
+  evaluation.extremities =
+      MeasureExtremities(evaluation.result, *evaluation.truth, evaluation.accuracy->frames);
   evaluation.certainty = MeasureCertainty(evaluation.result.poses, evaluation.accuracy);
   evaluation.lengths = CompareLengths(evaluation.result.body.sizes, *evaluation.truth);
 }

@@ -8,6 +8,7 @@
 #include "config/joint_names.h"
 #include "core/degrees.h"
 #include "tools/report/evaluation_text.h"
+#include "tools/report/extremity_text.h"
 #include "tools/report/report.h"
 #include "tools/results/export_axes.h"
 
@@ -180,6 +181,7 @@ void AddAccuracySections(const Evaluation& evaluation, const Json& figures, Json
             Table({{"length"}, {"acquired mm", 1}, {"true mm", 1}, {"error mm", 1, false, true}},
                   lengths)})}));
   sections.push_back(ScoredAnglesFigure(evaluation));
+  Append(ExtremitySections(evaluation.extremities), sections);
 }
 
 void AddPrecisionSections(const Evaluation& evaluation, const Json& figures, Json& sections) {

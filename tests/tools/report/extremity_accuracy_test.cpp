@@ -1,0 +1,156 @@
+#include "tools/report/extremity_accuracy.h"
+
+#include <gtest/gtest.h>
+
+#include "config/load_config.h"
+#include "core/degrees.h"
+#include "tools/report/extremity_text.h"
+
+namespace mocap {
+namespace {
+
+constexpr std::int64_t kExtremityPeriod_ns = 33'333'333;
+
+/// A body that stands still, and a truth that is the same.
+class ExtremityAccuracyTest : public ::testing::Test {
+ protected:
+  static constexpr int kSets = 30;
+
+  ExtremityAccuracyTest() : body_(LoadBodyTable("full"), AverageSizes(1750)) {
+    result_.body = RecordOf(body_);
+    CaptureResult capture;
+    capture.state = CaptureState::kTracking;
+    capture.pose.theta = JointAngles::Zero(body_.joint_count());
+    capture.pose.X_WT.p = {0, 0, 1200};
+    const Posture posture = body_.PostureAt(capture.pose);
+    capture.points_W = body_.PointsAt(posture);
+    capture.further_W = body_.FurtherPointsAt(posture);
+    capture.contacts.setOnes();
+    for (int i = 0; i < kSets; ++i) {
+      result_.poses.push_back(PoseRowOf(i, i * kExtremityPeriod_ns, capture, body_));
+      truth_.frames.push_back(
+          {.timestamp_ns = i * kExtremityPeriod_ns, .points_W = ScoredPointsOf(capture.points_W)});
+      TrueExtremities& truth = truth_.extremities.emplace_back();
+      truth.points_W = capture.further_W;
+      truth.contacts.setOnes();
+      truth.rotations.setZero();
+      // Hands of arms that are held out, against those that hang.
+      truth.rotations(0, 1) = EIGEN_PI / 2;
+      truth.rotations(0, 2) = -EIGEN_PI / 2;
+    }
+  }
+
+  ExtremityAccuracy Measure() const {
+    std::vector<ScoredFrame> output;
+    for (const PoseRow& row : result_.poses)
+      output.push_back({row.timestamp_ns, true, ScoredPointsOf(row.points_W)});
+    return MeasureExtremities(result_, truth_, MeasureAccuracy(truth_.frames, output).frames);
+  }
+
+  static double MeanIn(const std::vector<FigureErrors>& figures, std::string_view name) {
+    const auto found = std::ranges::find(figures, name, &FigureErrors::name);
+    EXPECT_NE(found, figures.end()) << name;
+    return found == figures.end() ? -1 : found->mean;
+  }
+
+  const BodyModel body_;
+  Result result_;
+  TakeTruth truth_;
+};
+
+TEST_F(ExtremityAccuracyTest, WhatIsTrueHasNoErrors) {
+  const ExtremityAccuracy accuracy = Measure();
+  EXPECT_EQ(accuracy.points_mm.size(), 14u);
+  EXPECT_EQ(accuracy.angles_deg.size(), 9u);
+  for (const FigureErrors& one : accuracy.points_mm) EXPECT_NEAR(one.mean, 0, 1e-9) << one.name;
+  for (const FigureErrors& one : accuracy.angles_deg) EXPECT_NEAR(one.mean, 0, 1e-5) << one.name;
+  EXPECT_EQ(accuracy.contacts[0].F1(), 1);
+  EXPECT_EQ(accuracy.skating[0].stances, 2);
+  EXPECT_NEAR(accuracy.skating[0].stance_mean_mm, 0, 1e-9);
+}
+
+TEST_F(ExtremityAccuracyTest, PointsThatTheTruthLacksAreLeftOut) {
+  for (TrueExtremities& truth : truth_.extremities) {
+    truth.points_W.leftCols<2>().setConstant(std::nan(""));
+    truth.rotations.setConstant(std::nan(""));
+    truth.contacts.setConstant(std::nan(""));
+  }
+  const ExtremityAccuracy accuracy = Measure();
+  EXPECT_EQ(accuracy.points_mm.size(), 12u);
+  EXPECT_EQ(accuracy.points_mm.front().name, "wrist_l");
+  EXPECT_EQ(accuracy.angles_deg.size(), 2u);
+  EXPECT_TRUE(accuracy.contacts[0].IsEmpty());
+  truth_.extremities.clear();
+  EXPECT_TRUE(Measure().IsEmpty());
+}
+
+TEST_F(ExtremityAccuracyTest, AHeadThatLooksElsewhereIsOffInThatAngle) {
+  for (TrueExtremities& truth : truth_.extremities)
+    truth.rotations.col(0) = Vector3(0, 0, 10 / kDegreesPerRad);
+  const ExtremityAccuracy accuracy = Measure();
+  EXPECT_NEAR(MeanIn(accuracy.angles_deg, "head_yaw"), 10, 1e-6);
+  EXPECT_NEAR(MeanIn(accuracy.angles_deg, "head_pitch"), 0, 1e-6);
+  EXPECT_NEAR(MeanIn(accuracy.angles_deg, "hand_turn_l"), 0, 1e-5);
+}
+
+TEST_F(ExtremityAccuracyTest, AFlexedAnkleIsOffByItsFlexion) {
+  const int ankle = body_.CarrierOf(Point::kHeelL) - 1;
+  ASSERT_EQ(body_.table().joints[static_cast<std::size_t>(ankle)].name, "ankle_l_y");
+  CaptureResult capture;
+  capture.pose.theta = JointAngles::Zero(body_.joint_count());
+  capture.pose.theta[ankle] = 0.2;
+  capture.pose.X_WT.p = {0, 0, 1200};
+  const FurtherPoints flexed = body_.FurtherPointsAt(body_.PostureAt(capture.pose));
+  for (PoseRow& row : result_.poses) row.further_W = flexed;
+  EXPECT_NEAR(MeanIn(Measure().angles_deg, "ankle_flexion_l"), 0.2 * kDegreesPerRad, 1e-6);
+  EXPECT_NEAR(MeanIn(Measure().angles_deg, "ankle_flexion_r"), 0, 1e-6);
+}
+
+TEST_F(ExtremityAccuracyTest, AContactMayBeAFrameOffAndNoMore) {
+  for (int i = 0; i < kSets; ++i) truth_.extremities[i].contacts[0] = i >= 15;
+  const auto found_from = [&](int first) {
+    for (int i = 0; i < kSets; ++i) result_.poses[i].contacts[0] = i >= first ? 0.9 : 0.1;
+    return Measure().contacts[0];
+  };
+  EXPECT_EQ(found_from(14).F1(), 1);
+  EXPECT_EQ(found_from(16).F1(), 1);
+  EXPECT_EQ(found_from(13).false_alarms, 1);
+  EXPECT_EQ(found_from(17).misses, 1);
+}
+
+TEST_F(ExtremityAccuracyTest, AStandingFootThatSlidesSkates) {
+  for (int i = 0; i < kSets; ++i)
+    for (const Point point : {Point::kHeelL, Point::kHeelR})
+      result_.poses[i].further_W(1, static_cast<int>(point) - kPointCount) += 2.0 * i;
+  const ExtremityAccuracy accuracy = Measure();
+  EXPECT_NEAR(accuracy.skating[0].frame_p95_mm, 2, 1e-9);
+  EXPECT_NEAR(accuracy.skating[0].stance_mean_mm, 2.0 * (kSets - 1), 1e-9);
+  EXPECT_NEAR(accuracy.true_skating[0].stance_mean_mm, 0, 1e-9);
+  EXPECT_NEAR(accuracy.skating[1].stance_mean_mm, 0, 1e-9);
+}
+
+TEST_F(ExtremityAccuracyTest, IsToldInTextAndJson) {
+  const Json json = ExtremityJson(Measure());
+  EXPECT_EQ(json["points_mm"]["wrist_l"]["mean"], 0);
+  EXPECT_EQ(json["angles_deg"]["head_yaw"]["p95"], 0);
+  EXPECT_EQ(json["contacts"]["toe"]["f1"], 1);
+  EXPECT_EQ(json["skating_mm"]["heel"]["stances"], 2);
+  const std::string text = ExtremityText(Measure());
+  for (const char* told : {"knuckles_r", "ankle_flexion_l", "heel", "1.000"})
+    EXPECT_NE(text.find(told), std::string::npos) << text;
+  EXPECT_EQ(ExtremityText({}), "");
+}
+
+TEST_F(ExtremityAccuracyTest, TakesWithoutAFigureDoNotCountForIt) {
+  ExtremityAccuracy one, other;
+  one.points_mm = {{"wrist_l", 10, 20}};
+  other.points_mm = {{"wrist_l", 20, 40}, {"heel_l", 6, 8}};
+  one.contacts[0] = {.hits = 9, .false_alarms = 1, .misses = 1};
+  const ExtremityAccuracy mean = MeanOf(std::vector{one, other, ExtremityAccuracy()});
+  EXPECT_EQ(MeanIn(mean.points_mm, "wrist_l"), 15);
+  EXPECT_EQ(MeanIn(mean.points_mm, "heel_l"), 6);
+  EXPECT_EQ(mean.contacts[0].F1(), 0.9);
+}
+
+}  // namespace
+}  // namespace mocap
