@@ -65,6 +65,8 @@ struct CaptureResult {
   /// The points that follow the 23, and their deviations; NaN: the body does not have them apart.
   FurtherPoints further_W = FurtherPoints::Constant(std::numeric_limits<double>::quiet_NaN());
   FurtherStds further_std_mm = FurtherStds::Constant(std::numeric_limits<double>::quiet_NaN());
+  /// Standard deviations of the joint angles [rad]; empty: not known.
+  JointAngles joint_std_rad = {};
   /// How likely heels and toes touch the floor, 0 to 1; NaN: not known.
   Contacts contacts = kUnknownContacts;
   /// Of the pose, 0 to 1. Empty: nobody is there, or the tracker cannot tell.

@@ -251,6 +251,8 @@ class SurfaceCapture : public MotionCapture {
       result_.further_std_mm[i] =
           DeviationOf(body, posture, point, further_W.col(i), filter.covariance());
     }
+    const auto variances = filter.covariance().diagonal().tail(body.joint_count());
+    result_.joint_std_rad = (variances / kFrameWorth).cwiseMax(0).cwiseSqrt();
   }
 
   Scheduler scheduler_;

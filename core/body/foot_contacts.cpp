@@ -8,7 +8,7 @@ namespace {
 
 // Speeds are taken over about this time [s]: noise of a frame is no motion.
 constexpr double kSpeedTime_s = 0.02;
-constexpr ContactOdds kHeelOdds{7.33, -0.152, -1.55}, kToeOdds{7.70, -0.060, -2.85};
+constexpr ContactOdds kHeelOdds{4.86, -0.067, -1.07}, kToeOdds{5.03, -0.063, -1.70};
 
 double ShareOf(const ContactOdds& odds, const FootMotion& motion) {
   const double nats = odds.resting + odds.per_mm * motion.height_mm +

@@ -10,9 +10,8 @@ void ForEachBelow(const PosedBody& posed, CapsuleSet capsules, const Visit& visi
     if (!(capsules >> i & 1)) continue;
     const PosedCapsule& capsule = posed.capsules()[i];
     for (const double share : {0.0, 1.0}) {
-      const Vector3& p_W = share == 0 ? capsule.a_W : capsule.b_W;
-      const double depth_mm = RadiusAt(capsule, share) - p_W.z();
-      if (depth_mm > 0) visit(i, p_W, depth_mm);
+      const double depth_mm = DepthBelowFloor(capsule, share);
+      if (depth_mm > 0) visit(i, share == 0 ? capsule.a_W : capsule.b_W, depth_mm);
     }
   }
 }

@@ -6,6 +6,11 @@
 
 namespace mocap {
 
+/// How deep the lowest place at an end of a capsule is below the floor [mm]; above it negative.
+inline double DepthBelowFloor(const PosedCapsule& capsule, double share) {
+  return RadiusAt(capsule, share) - (share == 0 ? capsule.a_W : capsule.b_W).z();
+}
+
 /// -log p of flesh below the floor: the residual is the depth of the lowest place at each end of a
 /// capsule.
 class FloorTerm {

@@ -109,7 +109,7 @@ void FillPoints(const CaptureResult& result, bool has_pose, person_details_t& me
   }
 }
 
-void FillJoints(const PoseState& pose, const BodyTable& table, int count,
+void FillJoints(const CaptureResult& result, const BodyTable& table, int count,
                 person_details_t& message) {
   message.num_joints = count;
   message.joint_name.resize(count);
@@ -117,7 +117,8 @@ void FillJoints(const PoseState& pose, const BodyTable& table, int count,
   message.joint_std_rad.assign(count, std::nan(""));
   for (int i = 0; i < count; ++i) {
     message.joint_name[i] = table.joints[i].name;
-    message.joint_rad[i] = pose.theta[i];
+    message.joint_rad[i] = result.pose.theta[i];
+    if (i < result.joint_std_rad.size()) message.joint_std_rad[i] = result.joint_std_rad[i];
   }
 }
 
@@ -158,7 +159,7 @@ void FillDetails(const TrackedSet& set, std::size_t place, person_details_t& mes
   message.state = static_cast<std::int8_t>(result.state);
   message.probability = has_pose ? result.probability.value_or(std::nan("")) : std::nan("");
   FillPoints(result, has_pose, message);
-  FillJoints(result.pose, body.table(), has_pose ? body.joint_count() : 0, message);
+  FillJoints(result, body.table(), has_pose ? body.joint_count() : 0, message);
   FillContacts(result, has_pose, message);
   message.rival_probability = has_rival ? result.rival->probability : 0;
   message.num_rival_points = has_rival ? kPointCount : 0;

@@ -11,6 +11,7 @@
 #include "core/body/stance.h"
 #include "tests/support/allocation_counter.h"
 #include "tests/support/seen_body.h"
+#include "tests/support/standing_height.h"
 #include "tests/support/voxelized_body.h"
 
 namespace mocap {
@@ -23,8 +24,7 @@ PoseState Stroll(const BodyModel& body, int frame) {
   const double swing = std::sin(0.2 * frame);
   PoseState pose;
   pose.X_WT.R = ExpRotation(Vector3(0, 0, 0.3));
-  pose.X_WT.p = Vector3(15.0 * frame, 5.0 * frame,
-                        body.sizes().torso / 2 + body.sizes().thigh + body.sizes().calf);
+  pose.X_WT.p = Vector3(15.0 * frame, 5.0 * frame, StandingHeight(body.sizes()));
   Stance stance;
   stance.arm_l = {.raise = -70, .forward = 20 * swing, .elbow = 25};
   stance.arm_r = {.raise = -70, .forward = -20 * swing, .elbow = 25};

@@ -7,6 +7,7 @@
 #include "core/body/stance.h"
 #include "core/hypotheses/hypothesis.h"
 #include "tests/support/seen_body.h"
+#include "tests/support/standing_height.h"
 
 namespace mocap {
 
@@ -18,7 +19,7 @@ class FittedBody : public ::testing::Test {
   PoseState Standing(const BodyModel& body, const Stance& stance) const {
     PoseState pose;
     pose.X_WT.R = ExpRotation(Vector3(0, 0, 0.4));
-    pose.X_WT.p = Vector3(50, -30, body.sizes().torso / 2 + body.sizes().thigh + body.sizes().calf);
+    pose.X_WT.p = Vector3(50, -30, StandingHeight(body.sizes()));
     pose.theta = AnglesOf(stance, body.table());
     return pose;
   }

@@ -16,6 +16,7 @@
 #include "core/surface_capture.h"
 #include "daemon/pipeline/capture_beside.h"
 #include "tests/support/seen_body.h"
+#include "tests/support/standing_height.h"
 
 namespace mocap {
 
@@ -37,8 +38,7 @@ class Room : public ::testing::Test {
     const BodyModel body(table_, AverageSizes(stature_mm));
     const double swing = std::sin(0.2 * frame);
     PoseState pose;
-    pose.X_WT.p =
-        Vector3(x_mm, y_mm, body.sizes().torso / 2 + body.sizes().thigh + body.sizes().calf);
+    pose.X_WT.p = Vector3(x_mm, y_mm, StandingHeight(body.sizes()));
     const ArmStance arm_l{.raise = -70, .forward = 20 * swing, .elbow = 25};
     const ArmStance arm_r{.raise = -70, .forward = -20 * swing, .elbow = 25};
     const LegStance leg_l{.hip = -20 * swing, .knee = 15};

@@ -10,6 +10,7 @@
 #include "core/body/stance.h"
 #include "core/calibration/seen_shape.h"
 #include "tests/support/seen_body.h"
+#include "tests/support/standing_height.h"
 
 namespace mocap::testing {
 
@@ -39,8 +40,7 @@ inline const std::vector<SeenMoment>& WalkingMoments() {
       stance.leg_r = {.hip = -20 * std::sin(2.0 * i), .knee = 10};
       PoseState pose;
       pose.X_WT.R = ExpRotation(Vector3(0, 0, along));
-      pose.X_WT.p = {700 * std::cos(along), 700 * std::sin(along),
-                     sizes.torso / 2 + sizes.thigh + sizes.calf};
+      pose.X_WT.p = {700 * std::cos(along), 700 * std::sin(along), StandingHeight(sizes)};
       pose.theta = AnglesOf(stance, body.table());
       std::vector<PosedCapsule> flesh;
       body.PoseShape(body.PostureAt(pose), flesh);

@@ -123,6 +123,13 @@ void AddOverlaps(const PosedBody& posed, ResidualGroups& groups) {
   }
 }
 
+// Likewise the depths of flesh below the floor.
+void AddFloor(const PosedBody& posed, ResidualGroups& groups) {
+  for (int i = 0; i < std::ssize(posed.capsules()); ++i)
+    for (const double share : {0.0, 1.0})
+      groups.Add(NoiseKind::kFloor, i, std::max(0.0, DepthBelowFloor(posed.capsules()[i], share)));
+}
+
 class ResidualKeeper : public PoseSink {
  public:
   ResidualKeeper(const SimulatedStudioOptions& studio, NoiseTake& take)
@@ -133,7 +140,12 @@ class ResidualKeeper : public PoseSink {
   }
 
   void OnSet(const TrackedSet& set) override {
-    if (set.result.state != CaptureState::kTracking || set.frame % every_ != 0) return;
+    if (set.result.state != CaptureState::kTracking) {
+      feet_.Reset();
+      return;
+    }
+    KeepContacts(set);
+    if (set.frame % every_ != 0) return;
     evidence_.Gather(Observation(set.grid, set.outlines));
     const auto number = static_cast<int>(set.frame / every_);
     const ScoredPoints points_W = TrueScoredPoints(truth_, set.capture_ns);
@@ -149,6 +161,24 @@ class ResidualKeeper : public PoseSink {
   }
 
  private:
+  void KeepContacts(const TrackedSet& set) {
+    const double dt_s = 1e-9 * static_cast<double>(set.capture_ns - last_ns_);
+    last_ns_ = set.capture_ns;
+    const Posture posture = set.body.PostureAt(set.result.pose);
+    if (!feet_.Update(set.body, posture, dt_s).allFinite()) return;
+    const ScoredPoints apart_W =
+        ScoredPointsOf(set.result.points_W) - TrueScoredPoints(truth_, set.capture_ns);
+    const simulation::FloorContacts touches = truth_.ContactsAt(set.capture_ns);
+    for (int i = 0; i < kContactCount; ++i) {
+      const auto* foot =
+          std::ranges::find(kScoredPoints, i % 2 == 0 ? Point::kFootL : Point::kFootR);
+      if (apart_W.col(foot - kScoredPoints.begin()).norm() > kMostAway_mm) continue;
+      const bool is_heel = i < kContactCount / 2;
+      auto& samples = is_heel ? take_.contacts.heels : take_.contacts.toes;
+      samples.push_back({feet_.motion()[i], touches[i]});
+    }
+  }
+
   void KeepResiduals(const BodyModel& body, const PoseState& pose, int number) {
     ResidualGroups groups(number);
     for (const SurfaceResidual& residual : objective_.ResidualsAt(body, pose))
@@ -157,6 +187,7 @@ class ResidualKeeper : public PoseSink {
     posed.Set(body, pose);
     AddFlesh(objective_, posed, groups);
     AddOverlaps(posed, groups);
+    AddFloor(posed, groups);
     groups.MoveTo(take_);
   }
 
@@ -196,6 +227,8 @@ class ResidualKeeper : public PoseSink {
   const SimulatedTruth truth_;
   const int every_;
   NoiseTake& take_;
+  FootContacts feet_;
+  std::int64_t last_ns_ = 0;
   Evidence evidence_;
   Objective objective_;
 };
@@ -212,7 +245,8 @@ void ForEachGroup(std::span<const NoiseTake> takes, NoiseKind kind, std::size_t 
 Residuals ResidualsOf(std::span<const NoiseTake> takes, NoiseKind kind, std::size_t first) {
   Residuals residuals;
   residuals.least_mm = takes.front().voxel_mm / 2;
-  const bool is_distance = kind == NoiseKind::kFlesh || kind == NoiseKind::kOverlap;
+  const bool is_distance =
+      kind == NoiseKind::kFlesh || kind == NoiseKind::kOverlap || kind == NoiseKind::kFloor;
   ForEachGroup(takes, kind, first, [&](const ResidualGroup& group) {
     for (const float r : group.residuals_mm) {
       if (is_distance && r < residuals.least_mm)
@@ -316,11 +350,13 @@ std::string NoiseTable(std::span<const NoiseTake> takes) {
   if (takes.size() < 2) return {};
   int sets = 0, left_out = 0, fitted = 0;
   std::vector<OddsTake> odds;
+  std::vector<ContactTake> contacts;
   for (std::size_t t = 0; t < takes.size(); ++t) {
     sets += takes[t].sets;
     left_out += takes[t].left_out;
     if (t % 2 == 0) fitted += takes[t].sets;
     odds.push_back(takes[t].odds);
+    contacts.push_back(takes[t].contacts);
   }
   std::string text = fmt::format(
       "\n## Noise of the evidence\n{} sets of {} people at their true poses ({} left out). Half of "
@@ -338,7 +374,7 @@ std::string NoiseTable(std::span<const NoiseTake> takes) {
         ScaleText(m.noise.outside_mm), 100 * m.far_share, m.noise.alike, m.correlation,
         m.residuals / fitted, m.others_nats, m.own_nats);
   }
-  return text + OddsTables(odds);
+  return text + ContactTable(contacts) + OddsTables(odds);
 }
 
 }  // namespace mocap

@@ -10,14 +10,15 @@
 
 #include "core/objective/residual_noise.h"
 #include "tools/accuracy/accuracy_trial.h"
+#include "tools/accuracy/contact_fit.h"
 #include "tools/accuracy/odds_fit.h"
 
 namespace mocap {
 
 /// The terms of the objective that have residuals.
-enum class NoiseKind { kSurface, kRay, kBorder, kFlesh, kOverlap };
-inline constexpr std::array<std::string_view, 5> kNoiseKindNames = {"surface", "ray", "border",
-                                                                    "flesh", "overlap"};
+enum class NoiseKind { kSurface, kRay, kBorder, kFlesh, kOverlap, kFloor };
+inline constexpr std::array<std::string_view, 6> kNoiseKindNames = {"surface", "ray",     "border",
+                                                                    "flesh",   "overlap", "floor"};
 
 /// The residuals of one kind at one part of a body, in one frame set. Places of bones that are in
 /// flesh and not in other parts have a residual of 0.
@@ -31,8 +32,9 @@ struct ResidualGroup {
 /// What one take shows.
 struct NoiseTake {
   std::vector<ResidualGroup> groups;
-  OddsTake odds;      ///< Of one set a second.
-  double step_s = 0;  ///< Between measured sets.
+  OddsTake odds;         ///< Of one set a second.
+  ContactTake contacts;  ///< Of all sets.
+  double step_s = 0;     ///< Between measured sets.
   double voxel_mm = 0;
   int sets = 0, left_out = 0;  ///< Measured; and those where the body cannot take the true pose.
 };
@@ -57,7 +59,7 @@ struct MeasuredNoise {
 /// @param takes  at least two, with residuals of that kind.
 MeasuredNoise FitNoise(std::span<const NoiseTake> takes, NoiseKind kind);
 
-/// Tables of all kinds and of the odds.
+/// Tables of all kinds, of contacts and of the odds.
 std::string NoiseTable(std::span<const NoiseTake> takes);
 
 }  // namespace mocap

@@ -8,6 +8,7 @@
 #include "core/body/stance.h"
 #include "core/hypotheses/hypothesis.h"
 #include "tests/support/seen_body.h"
+#include "tests/support/standing_height.h"
 
 namespace mocap {
 namespace {
@@ -22,7 +23,7 @@ PoseState Upright(const BodyModel& body) {
   PoseState pose;
   pose.theta = AnglesOf({}, body.table());
   pose.X_WT.R.setIdentity();
-  pose.X_WT.p = Vector3(0, 0, body.sizes().torso / 2 + body.sizes().thigh + body.sizes().calf);
+  pose.X_WT.p = Vector3(0, 0, StandingHeight(body.sizes()));
   return pose;
 }
 

@@ -35,8 +35,8 @@ class SteadyPoseTest : public ::testing::Test {
     return pose;
   }
   BodyPoints PointsAt(const PoseState& pose) const { return body_.PointsAt(body_.PostureAt(pose)); }
-  PoseState Follow(const PoseState& pose) {
-    return steady_.Follow(body_, FilterAt(pose), PointStds::Constant(15), kFrame_s);
+  PoseState Follow(const PoseState& pose, const Contacts& contacts = kUnknownContacts) {
+    return steady_.Follow(body_, FilterAt(pose), PointStds::Constant(15), contacts, kFrame_s);
   }
 
   BodyModel body_{LoadBodyTable("full"), AverageSizes(1750)};
@@ -75,6 +75,32 @@ TEST_F(SteadyPoseTest, AHandThatStartsIsFollowedAtOnceAndTheRestStays) {
   EXPECT_GT(moved_mm(Point::kFingertipsL), 40);
   EXPECT_LT(moved_mm(Point::kFingertipsR), 8);
   EXPECT_LT(moved_mm(Point::kFootL), 8);
+}
+
+TEST_F(SteadyPoseTest, AFootThatStandsDoesNotSlideWhileTheBodyWalksOn) {
+  Contacts left_stands;
+  left_stands << 1, 0, 1, 0;
+  const auto toe_W = [&](Point toe, const PoseState& pose) {
+    return body_.PlaceOf(toe, body_.PostureAt(pose));
+  };
+  PoseState pose = Rest();
+  PoseState first = Follow(pose, left_stands), last = first;
+  for (int i = 0; i < 6; ++i) {
+    pose.X_WT.p.x() += 20;
+    last = Follow(pose, left_stands);
+  }
+  const auto way_mm = [&](Point toe) { return (toe_W(toe, last) - toe_W(toe, first)).norm(); };
+  EXPECT_GT(way_mm(Point::kToeR), 80);
+  EXPECT_LT(way_mm(Point::kToeL), 0.5 * way_mm(Point::kToeR));
+}
+
+TEST_F(SteadyPoseTest, AFootThatLeavesIsFree) {
+  Contacts stands = Contacts::Ones(), leaves = Contacts::Zero();
+  PoseState pose = Rest();
+  for (int i = 0; i < 5; ++i) Follow(pose, stands);
+  pose.X_WT.p.z() += 60;
+  const PoseState raised = Follow(pose, leaves);
+  EXPECT_LT((PointsAt(raised) - PointsAt(pose)).colwise().norm().mean(), 2);
 }
 
 TEST_F(SteadyPoseTest, AFastMotionIsNotDelayed) {

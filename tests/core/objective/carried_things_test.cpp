@@ -6,27 +6,27 @@
 #include "core/body/stance.h"
 #include "core/hypotheses/hypothesis.h"
 #include "tests/support/seen_body.h"
+#include "tests/support/standing_height.h"
 
 namespace mocap {
 namespace {
 
 class Carried : public ::testing::Test {
  protected:
-  PoseState Posed(const Stance& stance, double hips_mm) const {
+  PoseState Posed(const Stance& stance, double bent_mm) const {
     PoseState pose;
     pose.X_WT.R = ExpRotation(Vector3(0, 0, 0.4));
-    pose.X_WT.p = Vector3(50, -30, hips_mm + body_.sizes().torso / 2);
+    pose.X_WT.p = Vector3(50, -30, StandingHeight(body_.sizes()) - bent_mm);
     pose.theta = AnglesOf(stance, body_.table());
     return pose;
   }
   PoseState Standing() const {
-    return Posed({.arm_l = kHanging, .arm_r = kForward, .leg_l = {}, .leg_r = {}},
-                 body_.sizes().thigh + body_.sizes().calf);
+    return Posed({.arm_l = kHanging, .arm_r = kForward, .leg_l = {}, .leg_r = {}}, 0);
   }
   PoseState Sitting() const {
     const LegStance bent{.hip = 85, .knee = 85};
     return Posed({.arm_l = kForward, .arm_r = kForward, .leg_l = bent, .leg_r = bent},
-                 body_.sizes().calf);
+                 body_.sizes().thigh);
   }
   Vector3 At(const PoseState& pose, Point point) const {
     return body_.PointsAt(body_.PostureAt(pose)).col(static_cast<int>(point));

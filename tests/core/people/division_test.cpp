@@ -8,6 +8,7 @@
 #include "core/people/flesh_division.h"
 #include "core/people/outline_division.h"
 #include "tests/support/seen_body.h"
+#include "tests/support/standing_height.h"
 
 namespace mocap {
 namespace {
@@ -19,7 +20,7 @@ class Division : public ::testing::Test {
   PosedPerson At(double x_mm, double stature_mm) const {
     const BodyModel body(table_, AverageSizes(stature_mm));
     PoseState pose;
-    pose.X_WT.p = Vector3(x_mm, 0, body.sizes().torso / 2 + body.sizes().thigh + body.sizes().calf);
+    pose.X_WT.p = Vector3(x_mm, 0, StandingHeight(body.sizes()));
     pose.theta = AnglesOf(Stance{}, table_);
     PosedPerson person;
     PosePerson(body, pose, kReachMm, person);

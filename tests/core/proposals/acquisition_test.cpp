@@ -8,6 +8,7 @@
 #include "core/body/stance.h"
 #include "core/proposals/scheduler.h"
 #include "tests/support/seen_body.h"
+#include "tests/support/standing_height.h"
 
 namespace mocap {
 namespace {
@@ -27,7 +28,7 @@ class Acquisition : public ::testing::Test {
     return pose;
   }
   PoseState Upright(const BodySizes& sizes, const Stance& stance) const {
-    return Pose(sizes.torso / 2 + sizes.thigh + sizes.calf, stance);
+    return Pose(StandingHeight(sizes), stance);
   }
   /// Looks for whoever is there, and measures for some frames more.
   void Find(const BodyModel& body, const PoseState& truth, int frames) {
