@@ -135,7 +135,7 @@ std::string AccuracyMarkdown(const AccuracyBenchmark& benchmark) {
       benchmark.seconds, kWrongMm);
   if (!benchmark.grid.empty())
     text += AccuracySummaryText(Summarize(benchmark.grid)) +
-            ExtremityMarkdown(MeanExtremities(benchmark.grid));
+            ExtremityMarkdown("## Hands, feet and head", MeanExtremities(benchmark.grid));
   if (!benchmark.sweeps.empty()) {
     text +=
         "\n## What makes it worse\nEach line is the mean over walking, dancing and sitting "

@@ -100,7 +100,7 @@ std::string TakesMarkdown(const std::vector<ScoredTakes>& folders, int firsts) {
                             FiguresOf(score.Mean(), "{:.1f} | {:.1f} | {:.2f}", "never | | "),
                             score.spread_mm(), score.sets, 100 * score.tracked_share(), switches);
     }
-    text += ExtremityMarkdown(MeanExtremities(rows));
+    text += ExtremityMarkdown("### Hands, feet and head: " + rows.folder, MeanExtremities(rows));
   }
   return text;
 }

@@ -173,10 +173,6 @@ std::string VarietyMarkdown(std::span<const VarietyGrid> grids) {
                         rows.size(), counts.never, counts.late, counts.lost, counts.wrong,
                         counts.mean_mm, counts.worst_mm);
   }
-  for (const VarietyGrid& grid : grids) {
-    const std::string extremities = ExtremityMarkdown(MeanExtremities(grid));
-    if (!extremities.empty()) text += "\nFilmed at " + grid.filming.label + ":\n" + extremities;
-  }
   for (const auto& [filming, rows] : grids) {
     text += fmt::format(
         "\nThe worst at {}:\n\n| number | motion | stature mm | mean mm | found s | lost s | wears "
@@ -190,6 +186,9 @@ std::string VarietyMarkdown(std::span<const VarietyGrid> grids) {
                           row.accuracy.motion, row.accuracy.stature_mm, row.accuracy.mpjpe_mm,
                           FoundText(row), row.lost_s, row.looks);
   }
+  for (const VarietyGrid& grid : grids)
+    text += ExtremityMarkdown("### Hands, feet and head at " + grid.filming.label,
+                              MeanExtremities(grid));
   return text;
 }
 

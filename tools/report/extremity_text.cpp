@@ -22,9 +22,9 @@ std::string ShareText(const ContactScore& score, double share) {
 
 std::string FiguresText(const std::string& what, const std::string& unit, int decimals,
                         const std::vector<FigureErrors>& figures) {
-  std::string text = fmt::format("  {:<18}{:>9}{:>13}\n", what, "mean " + unit, "95 % below");
+  std::string text = fmt::format("  {:<18}{:>14}{:>12}\n", what, "mean " + unit, "95 % below");
   for (const FigureErrors& one : figures)
-    text += fmt::format("  {:<18}{:>9.{}f}{:>13.{}f}\n", one.name, one.mean, decimals, one.p95,
+    text += fmt::format("  {:<18}{:>14.{}f}{:>12.{}f}\n", one.name, one.mean, decimals, one.p95,
                         decimals);
   return text;
 }
@@ -99,9 +99,9 @@ Json ExtremityJson(const ExtremityAccuracy& accuracy) {
   return json;
 }
 
-std::string ExtremityMarkdown(const ExtremityAccuracy& accuracy) {
+std::string ExtremityMarkdown(const std::string& heading, const ExtremityAccuracy& accuracy) {
   if (accuracy.IsEmpty()) return {};
-  return "\n## Hands, feet and head\nMeans over the takes; contacts are counted together.\n\n```" +
+  return '\n' + heading + "\nMeans over the takes; contacts are counted together.\n\n```" +
          ExtremityText(accuracy) + "```\n";
 }
 
