@@ -16,6 +16,7 @@
 #include "tools/report/people_report.h"
 #include "tools/report/people_text.h"
 #include "tools/report/report.h"
+#include "tools/report/report_page.h"
 #include "tools/studio_examination.h"
 #include "tools/take_samples.h"
 
@@ -31,12 +32,6 @@ struct EvaluateArguments {
   bool json = false;
 };
 
-void RequireRoomForReport(const EvaluateArguments& arguments) {
-  RequireSuffix(arguments.report, ".html");
-  RequireWritable(arguments.report);
-  RequireOwn(arguments.report, kReportBeginnings, "a report");
-}
-
 TakeSamples SampleForReport(const std::filesystem::path& take,
                             const std::vector<SampleRequest>& moments) {
   TakeSamples samples = SampleTake(take, moments, kReportVoxelMm);
@@ -47,14 +42,14 @@ TakeSamples SampleForReport(const std::filesystem::path& take,
 }
 
 void WritePeopleReport(const EvaluateArguments& arguments, const PeopleEvaluation& evaluation) {
-  RequireRoomForReport(arguments);
+  RequireRoomForReport(arguments.report);
   const TakeSamples samples = SampleForReport(arguments.take, ChooseReportMoments(evaluation));
   ReplaceText(arguments.report, PeopleReportHtml(evaluation, samples, MeasureOverlaps(samples)));
 }
 
 std::vector<CameraOverlap> WriteReport(const EvaluateArguments& arguments,
                                        const Evaluation& evaluation) {
-  RequireRoomForReport(arguments);
+  RequireRoomForReport(arguments.report);
   const TakeSamples samples = SampleForReport(arguments.take, ChooseReportMoments(evaluation));
   std::vector<CameraOverlap> overlaps = MeasureOverlaps(samples);
   ReplaceText(arguments.report, ReportHtml(evaluation, samples, overlaps));

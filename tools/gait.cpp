@@ -8,8 +8,12 @@
 
 #include "daemon/base/json.h"
 #include "drivers/printable_text.h"
+#include "drivers/take/text_file.h"
 #include "tools/gait/gait_analysis.h"
+#include "tools/gait/gait_report.h"
+#include "tools/gait/gait_text.h"
 #include "tools/remarks.h"
+#include "tools/report/report_page.h"
 
 namespace mocap {
 namespace {
@@ -17,12 +21,20 @@ namespace {
 struct GaitArguments {
   std::filesystem::path result;
   std::filesystem::path out;
+  std::filesystem::path report;
   std::optional<std::string> prefix;
   bool people = false;
   bool json = false;
 };
 
 void Print(const std::string& text) { std::fputs(text.c_str(), stdout); }
+
+void WriteReport(const GaitArguments& arguments, const PeopleGaits& people) {
+  if (arguments.report.empty()) return;
+  RequireRoomForReport(arguments.report);
+  const std::filesystem::path result = std::filesystem::weakly_canonical(arguments.result);
+  ReplaceText(arguments.report, GaitReportHtml(result.filename().string(), people));
+}
 
 GaitAnalysis Analyse(const Result& result, const std::filesystem::path& out) {
   TellRemarks("gait", result.remarks);
@@ -32,21 +44,24 @@ GaitAnalysis Analyse(const Result& result, const std::filesystem::path& out) {
 }
 
 void RunForPeople(const GaitArguments& arguments) {
-  Json people = Json::object();
+  Json json = Json::object();
   std::string text;
+  PeopleGaits people;
   for (const auto& [name, result] : ReadPeople(arguments.result, arguments.prefix)) {
     const std::filesystem::path out =
         arguments.out.empty() ? std::filesystem::path() : arguments.out / name;
-    const GaitAnalysis gait = Analyse(result, out);
-    people[name] = GaitJson(gait);
+    const GaitAnalysis& gait = people.emplace_back(name, Analyse(result, out)).second;
+    json[name] = GaitJson(gait);
     text += (text.empty() ? "" : "\n") + Printable(name) + ": " + GaitText(gait);
   }
-  Print(arguments.json ? JsonText({{"people", people}}) + '\n' : text);
+  WriteReport(arguments, people);
+  Print(arguments.json ? JsonText({{"people", json}}) + '\n' : text);
 }
 
 void RunGait(const GaitArguments& arguments) {
   if (arguments.people || IsOfPeople(arguments.result)) return RunForPeople(arguments);
   const GaitAnalysis gait = Analyse(ReadResult(arguments.result, arguments.prefix), arguments.out);
+  WriteReport(arguments, {{"", gait}});
   Print(arguments.json ? JsonText(GaitJson(gait)) + '\n' : GaitText(gait));
 }
 
@@ -62,6 +77,8 @@ void AddGaitCommand(CLI::App& app) {
       ->required();
   command->add_option("--out", arguments->out,
                       "output folder: events, strides, figures and curves as CSV");
+  command->add_option("--report", arguments->report,
+                      "output HTML report: figures, events, joint angles over the gait cycle");
   command->add_option("--prefix", arguments->prefix,
                       "prefix of the LCM channel names, for a log of several daemons");
   command->add_flag("--people", arguments->people,

@@ -7,6 +7,7 @@
 
 #include "core/errors.h"
 #include "drivers/take/text_file.h"
+#include "tools/results/export_axes.h"
 
 namespace mocap {
 namespace {
@@ -28,9 +29,7 @@ std::string ColumnOf(const GaitFigure& figure) {
 
 constexpr int kDecimals = 4;
 
-Json NumberJson(double value) {
-  return std::isnan(value) ? Json() : Rounded(value, kDecimals);
-}
+Json NumberJson(double value) { return std::isnan(value) ? Json() : Rounded(value, kDecimals); }
 
 std::string_view NameOf(Side side) { return kSideNames[static_cast<std::size_t>(side)]; }
 std::string_view NameOf(GaitEventKind kind) {
@@ -96,6 +95,19 @@ Json FiguresJson(const GaitSummary& summary) {
   return json;
 }
 
+Json CheckJson(const EventCheck& check) {
+  Json json = Json::object();
+  for (std::size_t kind = 0; kind < check.size(); ++kind) {
+    const EventAgreement& one = check[kind];
+    Json& row = json[std::string(kGaitEventNames[kind])];
+    row = {{"by_contact", one.by_contact}, {"by_position", one.by_position}, {"both", one.both}};
+    if (one.both == 0) continue;
+    row["position_later_s"] = NumberJson(one.mean_s);
+    row["sd_s"] = NumberJson(one.spread_s);
+  }
+  return json;
+}
+
 Json CurveJson(const CycleCurve& curve) {
   Json json{{"angle", curve.angle}, {"side", NameOf(curve.side)}, {"strides", curve.strides}};
   for (const double deg : curve.mean_deg) json["mean_deg"].push_back(NumberJson(deg));
@@ -110,56 +122,38 @@ GaitAnalysis AnalyseGait(const Result& result) {
     return row.has_pose &&
            row.further_W.col(static_cast<int>(Point::kToeL) - kPointCount).allFinite();
   };
-  if (std::ranges::none_of(result.poses, has_feet))
+  if (std::ranges::any_of(result.poses, IsTracked) && std::ranges::none_of(result.poses, has_feet))
     throw SetupError(
         "the result has no heels and toes; expected one of a body whose feet turn, such as full");
   GaitAnalysis gait;
+  std::vector<GaitEvent> by_contact, by_position;
+  const auto append = [](const auto& added, auto& list) {
+    list.insert(list.end(), added.begin(), added.end());
+  };
   for (const GaitRun& run : GaitRunsOf(result)) {
     gait.tracked_s += run.back().time_s - run.front().time_s;
     const std::vector<GaitEvent> events = FindGaitEvents(run);
-    const std::vector<Stride> strides = StridesOf(run, events);
-    gait.events.insert(gait.events.end(), events.begin(), events.end());
-    gait.strides.insert(gait.strides.end(), strides.begin(), strides.end());
+    append(events, gait.events);
+    append(StridesOf(run, events), gait.strides);
+    if (!HasContacts(run)) continue;
+    append(events, by_contact);
+    append(FindPositionEvents(run), by_position);
   }
+  if (!by_contact.empty()) gait.check = CompareEvents(by_contact, by_position);
   gait.summary = Summarize(gait.strides);
-  gait.curves = CurvesOf(AnglesOf(result), result.poses.front().timestamp_ns, gait.strides);
+  if (!gait.strides.empty())
+    gait.curves = CurvesOf(AnglesOf(result), result.poses.front().timestamp_ns, gait.strides);
   return gait;
-}
-
-std::string GaitText(const GaitAnalysis& gait) {
-  const auto strides = [&](Side side) {
-    return std::ranges::count(gait.strides, side, &Stride::side);
-  };
-  if (gait.strides.empty())
-    return fmt::format("no whole stride in {:.1f} s of tracking\n", gait.tracked_s);
-  std::string text =
-      fmt::format("strides: {} left, {} right\n\n{:<16}{:<11}{:>18}{:>18}{:>12}\n",
-                  strides(Side::kLeft), strides(Side::kRight), "", "", "left", "right", "symmetry");
-  const auto cell = [](const MeanAndSpread& side, int decimals) {
-    return side.count > 0
-               ? fmt::format("{:.{}f} ± {:.{}f}", side.mean, decimals, side.spread, decimals)
-               : std::string("-");
-  };
-  for (std::size_t i = 0; i < kGaitFigures.size(); ++i) {
-    const GaitFigure& figure = kGaitFigures[i];
-    const int decimals = figure.unit == "s" || figure.unit == "m/s" ? 2
-                         : figure.unit == "mm"                      ? 0
-                                                                    : 1;
-    const double symmetry = gait.summary.symmetry_percent[i];
-    text += fmt::format("{:<16}{:<11}{:>18}{:>18}{:>12}\n", figure.name, figure.unit,
-                        cell(gait.summary.figures[0][i], decimals),
-                        cell(gait.summary.figures[1][i], decimals),
-                        std::isnan(symmetry) ? "-" : fmt::format("{:.1f} %", symmetry));
-  }
-  return text;
 }
 
 Json GaitJson(const GaitAnalysis& gait) {
   Json json{{"tracked_s", NumberJson(gait.tracked_s)},
+            {"events_by", gait.check ? "contact" : "position"},
             {"events", Json::array()},
             {"strides", Json::array()},
             {"figures", FiguresJson(gait.summary)},
             {"cycle", Json::array()}};
+  if (gait.check) json["event_check"] = CheckJson(*gait.check);
   for (const GaitEvent& event : gait.events)
     json["events"].push_back({{"time_s", NumberJson(event.time_s)},
                               {"side", NameOf(event.side)},

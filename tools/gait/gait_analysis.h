@@ -2,10 +2,12 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "daemon/base/json.h"
+#include "tools/gait/event_check.h"
 #include "tools/gait/gait_cycle.h"
 #include "tools/gait/gait_figures.h"
 #include "tools/kinematics/gait_events.h"
@@ -16,17 +18,17 @@ namespace mocap {
 struct GaitAnalysis {
   double tracked_s = 0;           ///< Length of all runs.
   std::vector<GaitEvent> events;  ///< In order of time.
+  /// If the result has contacts, by which events are found then: how Zeni's agree with them.
+  std::optional<EventCheck> check;
   std::vector<Stride> strides;
   GaitSummary summary;
   std::vector<CycleCurve> curves;
 };
 
-/// @throws SetupError  when the result has no points of the feet.
+/// @throws SetupError  when somebody was tracked without points of the feet.
 GaitAnalysis AnalyseGait(const Result& result);
 
-/// A table of figures by side.
-std::string GaitText(const GaitAnalysis& gait);
-/// Fields: tracked_s, events, strides, figures, cycle.
+/// Fields: tracked_s, events_by, event_check, events, strides, figures, cycle.
 Json GaitJson(const GaitAnalysis& gait);
 /// Writes events.csv, strides.csv, figures.csv and cycle.csv to a folder, which it creates.
 /// @throws std::runtime_error  when they cannot be written.

@@ -31,14 +31,37 @@ GaitFrame FrameAt(std::span<const GaitFrame> run, double time_s) {
   return frame;
 }
 
-// The first event of a kind after a time, before another; empty if there is none.
-std::optional<double> TimeOf(std::span<const GaitEvent> events, Side side, GaitEventKind kind,
-                             double after_s, double before_s) {
+// The times of a side's events of a kind between two others.
+std::vector<double> TimesOf(std::span<const GaitEvent> events, Side side, GaitEventKind kind,
+                            double after_s, double before_s) {
+  std::vector<double> times_s;
   for (const GaitEvent& event : events)
     if (event.side == side && event.kind == kind && event.time_s > after_s &&
         event.time_s < before_s)
-      return event.time_s;
-  return std::nullopt;
+      times_s.push_back(event.time_s);
+  return times_s;
+}
+
+// The stride that begins with a strike; empty if one of its events is missing.
+std::optional<Stride> StrideFrom(std::span<const GaitEvent> events, const GaitEvent& begin) {
+  using enum GaitEventKind;
+  const Side other = OtherOf(begin.side);
+  const auto ends_s =
+      TimesOf(events, begin.side, kFootStrike, begin.time_s, begin.time_s + kLongestStride_s);
+  if (ends_s.empty()) return std::nullopt;
+  const double end_s = ends_s.front();
+  const auto offs_s = TimesOf(events, begin.side, kFootOff, begin.time_s, end_s);
+  const auto strikes_s = TimesOf(events, other, kFootStrike, begin.time_s, end_s);
+  if (offs_s.empty() || strikes_s.empty()) return std::nullopt;
+  const auto other_offs_s =
+      TimesOf(events, other, kFootOff, begin.time_s - (end_s - begin.time_s), strikes_s.front());
+  if (other_offs_s.empty()) return std::nullopt;
+  return Stride{.side = begin.side,
+                .begin_s = begin.time_s,
+                .end_s = end_s,
+                .off_s = offs_s.front(),
+                .opposite_off_s = other_offs_s.back(),
+                .opposite_strike_s = strikes_s.front()};
 }
 
 void MeasureWay(std::span<const GaitFrame> run, Stride& stride) {
@@ -86,32 +109,19 @@ const std::array<GaitFigure, 11> kGaitFigures = {{
     {"speed", "m/s", [](const Stride& s) { return s.speed_mm_s / 1000; }},
     {"stance", "%", [](const Stride& s) { return 100 * (s.off_s - s.begin_s) / s.duration_s(); }},
     {"swing", "%", [](const Stride& s) { return 100 * (s.end_s - s.off_s) / s.duration_s(); }},
-    {"double support", "%",
-     [](const Stride& s) {
-       return 100 * (s.opposite_off_s - s.begin_s + s.off_s - s.opposite_strike_s) / s.duration_s();
-     }},
+    {"double support", "%", [](const Stride& s) { return 100 * s.both_s() / s.duration_s(); }},
     {"single support", "%",
-     [](const Stride& s) {
-       return 100 * (s.opposite_strike_s - s.opposite_off_s) / s.duration_s();
-     }},
+     [](const Stride& s) { return 100 * (s.off_s - s.begin_s - s.both_s()) / s.duration_s(); }},
 }};
 
 std::vector<Stride> StridesOf(std::span<const GaitFrame> run, std::span<const GaitEvent> events) {
   std::vector<Stride> strides;
   for (const GaitEvent& begin : events) {
     if (begin.kind != GaitEventKind::kFootStrike) continue;
-    const double latest_s = begin.time_s + kLongestStride_s;
-    const auto end_s =
-        TimeOf(events, begin.side, GaitEventKind::kFootStrike, begin.time_s, latest_s);
-    if (!end_s) continue;
-    const Side other = OtherOf(begin.side);
-    const auto off_s = TimeOf(events, begin.side, GaitEventKind::kFootOff, begin.time_s, *end_s);
-    const auto other_off_s = TimeOf(events, other, GaitEventKind::kFootOff, begin.time_s, *end_s);
-    const auto strike_s = TimeOf(events, other, GaitEventKind::kFootStrike, begin.time_s, *end_s);
-    if (!off_s || !other_off_s || !strike_s) continue;
-    Stride& stride = strides.emplace_back();
-    stride = {begin.side, begin.time_s, *end_s, *off_s, *other_off_s, *strike_s};
-    MeasureWay(run, stride);
+    std::optional<Stride> stride = StrideFrom(events, begin);
+    if (!stride) continue;
+    MeasureWay(run, *stride);
+    if (stride->speed_mm_s >= kLeastWalking_mm_s) strides.push_back(*stride);
   }
   return strides;
 }

@@ -2,6 +2,7 @@
 // of one foot, so that they also hold on curved paths (Huxham et al. 2006).
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <span>
 #include <string_view>
@@ -16,14 +17,18 @@ struct Stride {
   Side side = Side::kLeft;
   double begin_s = 0, end_s = 0;
   double off_s = 0;              ///< When the foot left the floor in between.
-  double opposite_off_s = 0;     ///< When the other one left it, and
-  double opposite_strike_s = 0;  ///< struck.
+  double opposite_off_s = 0;     ///< When the other one left it before it
+  double opposite_strike_s = 0;  ///< struck in between. A runner's left it before begin_s.
   double length_mm = 0;          ///< Way of the heel: the stride line.
   double step_length_mm = 0;     ///< From the other heel to this one, along that line,
   double step_width_mm = 0;      ///< and across it; negative for feet that cross.
   double speed_mm_s = 0;
 
   double duration_s() const { return end_s - begin_s; }
+  /// While both feet are on the floor; a runner's never are.
+  double both_s() const {
+    return std::max(0.0, opposite_off_s - begin_s) + std::max(0.0, off_s - opposite_strike_s);
+  }
 };
 
 /// The figures that are given for each stride, in the order of kGaitFigures.
@@ -48,7 +53,8 @@ struct GaitSummary {
   std::array<double, 11> symmetry_percent;
 };
 
-/// Lists the strides of a run that have all four of their events, in order of time.
+/// Lists the strides of a run that have all four of their events, in order of time. Steps on the
+/// spot are none.
 std::vector<Stride> StridesOf(std::span<const GaitFrame> run, std::span<const GaitEvent> events);
 
 GaitSummary Summarize(std::span<const Stride> strides);

@@ -8,9 +8,10 @@ namespace {
 
 constexpr double kLeastRun_s = 2;
 constexpr double kHalfWindow_s = 0.25;
-constexpr double kLeastSpeed_mm_s = 200;
 // Frames farther apart than this many periods leave a gap.
 constexpr double kGapPeriods = 2.5;
+constexpr double kLeastPhase_s = 0.08;
+constexpr double kContact = 0.5;
 // A foot that goes forward and back by less relative to the pelvis takes no step [mm].
 constexpr double kLeastSwing_mm = 100;
 
@@ -34,6 +35,8 @@ GaitFrame FrameOf(const PoseRow& row, std::int64_t start_ns) {
   frame.pelvis_W = (at(Point::kHipL) + at(Point::kHipR)) / 2;
   frame.heel_W = {FurtherOf(row, Point::kHeelL), FurtherOf(row, Point::kHeelR)};
   frame.toe_W = {FurtherOf(row, Point::kToeL), FurtherOf(row, Point::kToeR)};
+  for (const int side : {0, 1})
+    frame.contact[side] = std::max(row.contacts[side], row.contacts[2 + side]);
   return frame;
 }
 
@@ -80,6 +83,32 @@ void AddMaxima(std::span<const GaitFrame> run, std::span<const double> signal, S
   }
 }
 
+// When a foot's contact begins and ends.
+std::vector<GaitEvent> CrossingsOf(std::span<const GaitFrame> run, Side side) {
+  const auto foot = static_cast<std::size_t>(side);
+  std::vector<GaitEvent> events;
+  for (std::size_t i = 1; i < run.size(); ++i) {
+    const double before = run[i - 1].contact[foot], after = run[i].contact[foot];
+    if ((before >= kContact) == (after >= kContact)) continue;
+    const double share = (kContact - before) / (after - before);
+    events.push_back({side, after > before ? GaitEventKind::kFootStrike : GaitEventKind::kFootOff,
+                      std::lerp(run[i - 1].time_s, run[i].time_s, share)});
+  }
+  return events;
+}
+
+// Removes phases of a foot that are too short for one. @param events  of this foot.
+void RemoveFlicker(std::vector<GaitEvent>& events) {
+  std::vector<GaitEvent> kept;
+  for (const GaitEvent& event : events) {
+    if (!kept.empty() && event.time_s - kept.back().time_s < kLeastPhase_s)
+      kept.pop_back();
+    else
+      kept.push_back(event);
+  }
+  events = std::move(kept);
+}
+
 }  // namespace
 
 std::vector<GaitRun> GaitRunsOf(const Result& result) {
@@ -113,13 +142,30 @@ std::vector<Vector3> DirectionsOf(std::span<const GaitFrame> run) {
     Vector3 way = run[end].pelvis_W - run[begin].pelvis_W;
     way.z() = 0;
     const double passed_s = run[end].time_s - run[begin].time_s;
-    const bool walks = way.norm() > kLeastSpeed_mm_s * passed_s && passed_s > 0;
+    const bool walks = way.norm() > kLeastWalking_mm_s * passed_s && passed_s > 0;
     directions.push_back(walks ? Vector3(way.normalized()) : Vector3::Zero());
   }
   return directions;
 }
 
-std::vector<GaitEvent> FindGaitEvents(std::span<const GaitFrame> run) {
+bool HasContacts(std::span<const GaitFrame> run) {
+  return std::ranges::none_of(run, [](const GaitFrame& frame) {
+    return std::isnan(frame.contact[0]) || std::isnan(frame.contact[1]);
+  });
+}
+
+std::vector<GaitEvent> FindContactEvents(std::span<const GaitFrame> run) {
+  std::vector<GaitEvent> events;
+  for (const Side side : {Side::kLeft, Side::kRight}) {
+    std::vector<GaitEvent> of_foot = CrossingsOf(run, side);
+    RemoveFlicker(of_foot);
+    events.insert(events.end(), of_foot.begin(), of_foot.end());
+  }
+  std::ranges::stable_sort(events, {}, &GaitEvent::time_s);
+  return events;
+}
+
+std::vector<GaitEvent> FindPositionEvents(std::span<const GaitFrame> run) {
   const std::vector<Vector3> directions = DirectionsOf(run);
   std::vector<GaitEvent> events;
   std::vector<double> heel_ahead(run.size()), toe_behind(run.size());
@@ -135,6 +181,19 @@ std::vector<GaitEvent> FindGaitEvents(std::span<const GaitFrame> run) {
     AddMaxima(run, toe_behind, side, GaitEventKind::kFootOff, events);
   }
   std::ranges::stable_sort(events, {}, &GaitEvent::time_s);
+  return events;
+}
+
+std::vector<GaitEvent> FindGaitEvents(std::span<const GaitFrame> run) {
+  return HasContacts(run) ? FindContactEvents(run) : FindPositionEvents(run);
+}
+
+std::vector<GaitEvent> GaitEventsOf(const Result& result) {
+  std::vector<GaitEvent> events;
+  for (const GaitRun& run : GaitRunsOf(result)) {
+    const std::vector<GaitEvent> found = FindGaitEvents(run);
+    events.insert(events.end(), found.begin(), found.end());
+  }
   return events;
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <limits>
 #include <span>
 #include <string_view>
 #include <vector>
@@ -28,21 +29,43 @@ struct GaitFrame {
   double time_s = 0;
   Vector3 pelvis_W = Vector3::Zero();  ///< Middle of the hip joints [mm].
   std::array<Vector3, 2> heel_W, toe_W;
+  /// How likely any of a foot touches the floor, 0 to 1; NaN: not known.
+  std::array<double, 2> contact = {std::numeric_limits<double>::quiet_NaN(),
+                                   std::numeric_limits<double>::quiet_NaN()};
 };
 
 /// Consecutive tracked frames, without a gap.
 using GaitRun = std::vector<GaitFrame>;
 
+/// Who moves slower does not walk: slow patients walk at 0.2 m/s [mm/s].
+inline constexpr double kLeastWalking_mm_s = 200;
+
 /// Lists the runs of a result whose feet are known; those shorter than two seconds hold no stride.
 std::vector<GaitRun> GaitRunsOf(const Result& result);
 
 /// Horizontal direction of walking in every frame: that of the pelvis over half a second. Zero
-/// while it moves slower than 0.2 m/s, less than people walk at.
+/// while it moves slower than kLeastWalking_mm_s.
 std::vector<Vector3> DirectionsOf(std::span<const GaitFrame> run);
+
+/// Whether the contacts of both feet are known in all frames.
+bool HasContacts(std::span<const GaitFrame> run);
+
+/// Finds the events of a run by contact: a foot strikes when the first of heel and toe touches the
+/// floor, and leaves it with the last, each when its probability crosses a half. Contacts and gaps
+/// shorter than 0.08 s are left out: the shortest that sprinters' feet take are 0.09 s (Weyand et
+/// al. 2000). In order of time.
+/// @pre  HasContacts(run)
+std::vector<GaitEvent> FindContactEvents(std::span<const GaitFrame> run);
 
 /// Finds the events of a run by the positions of heel and toe relative to the pelvis, along the
 /// direction of walking: a foot strikes when its heel is farthest ahead, and leaves the floor when
 /// its toe is farthest behind (Zeni, Richards and Higginson 2008). In order of time.
+std::vector<GaitEvent> FindPositionEvents(std::span<const GaitFrame> run);
+
+/// Finds the events of a run by contact where that is known, or else by position.
 std::vector<GaitEvent> FindGaitEvents(std::span<const GaitFrame> run);
+
+/// Finds the events of all runs, in order of time.
+std::vector<GaitEvent> GaitEventsOf(const Result& result);
 
 }  // namespace mocap

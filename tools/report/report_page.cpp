@@ -11,6 +11,7 @@
 
 #include "core/errors.h"
 #include "drivers/printable_text.h"
+#include "drivers/take/text_file.h"
 #include "tools/page/page_files.h"
 
 namespace mocap {
@@ -54,6 +55,12 @@ std::string PolicyOf(const std::string& text) {
 }
 
 }  // namespace
+
+void RequireRoomForReport(const std::filesystem::path& file) {
+  RequireSuffix(file, ".html");
+  RequireWritable(file);
+  RequireOwn(file, kReportBeginnings, "a report");
+}
 
 std::string ScriptOf(std::string_view module) {
   std::set<std::string> written;

@@ -1,6 +1,7 @@
 // A report: a page of the view, saved with all it needs as one HTML file.
 #pragma once
 
+#include <filesystem>
 #include <initializer_list>
 #include <span>
 #include <string>
@@ -16,6 +17,10 @@ inline constexpr std::string_view kReportBeginnings[] = {
     "<!doctype html><!-- written by mocap -->",
     "<!doctype html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"><meta name=\"viewport\" "
     "content=\"width=device-width,initial-scale=1\"><title>"};
+
+/// Checks in advance that a report can be written to a file.
+/// @throws SetupError  when it is no .html, cannot be written, or is somebody else's.
+void RequireRoomForReport(const std::filesystem::path& file);
 
 /// Writes a page of sections. The script report.js draws each by its `type`.
 /// @param under  below the title.

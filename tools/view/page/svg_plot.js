@@ -210,7 +210,7 @@ function addReading(svg, plot, at, text) {
     const distance = (i) => Math.abs(places[i] - offsetX);
     const i = places.reduce((best, _, k) => distance(k) < distance(best) ? k : best, 0);
     if (!(distance(i) < EVERY_X)) return tell(plot.x.label);
-    const values = plot.series.filter(({y}) => Number.isFinite(y[i]))
+    const values = plot.series.filter(({x, y}) => !x && Number.isFinite(y[i]))
                        .map((series) => `${series.label} ${fixed(series.y[i], 2)}`.trim());
     const place = `${plot.x.label} ${placeOf(plot.x, i)}`;
     return tell([place, ...values].join(' · '), `M${px(places[i])} ${at.top}V${at.bottom}`);

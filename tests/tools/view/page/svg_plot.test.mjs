@@ -96,6 +96,16 @@ test('the pointer reads the values at its place', () => {
   assert.ok(!textsOf(svg).some((text) => text.startsWith('frame 5')));
 });
 
+test('outlines have no value under the pointer', () => {
+  const series = [
+    {label: 'mean', figure: 0, mark: 'line', y: [1, 2]},
+    {label: '', figure: 0, mark: 'area', x: [0, 1, 1, 0], y: [7, 8, 3, 4]}
+  ];
+  const svg = svgPlot({x: {label: '%', first: 0}, y: {label: ''}, height: 100, series}, WIDTH);
+  svg.dispatchEvent(Object.assign(new Event('pointermove'), {offsetX: 158}));
+  assert.ok(textsOf(svg).includes('% 1 · mean 2.00'));
+});
+
 test('an empty plot is drawn, too', () => {
   const svg = svgPlot({x: {label: 'x'}, y: {label: 'y'}, series: []}, WIDTH);
   assert.equal(named(svg, 'path', 'axis').length, 1);
