@@ -14,6 +14,7 @@
 #include "daemon/messages/reduced_picture.h"
 #include "drivers/quoted.h"
 #include "drivers/take/input_file.h"
+#include "tools/kinematics/gait_events.h"
 #include "tools/page/picture_lines.h"
 #include "tools/report/body_outline.h"
 #include "tools/results/export_axes.h"
@@ -102,6 +103,18 @@ FrameErrors ErrorsOf(const Accuracy& accuracy, const std::vector<int>& rows) {
   return errors;
 }
 
+/// The steps, at times of the page.
+Json EventsJson(const Result& result) {
+  Json events = Json::array();
+  for (const GaitEvent& event : GaitEventsOf(result)) {
+    const double start_ms = static_cast<double>(result.poses.front().timestamp_ns) / kNsPerMs;
+    events.push_back({{"time_ms", start_ms + 1000 * event.time_s},
+                      {"side", kSideNames[static_cast<std::size_t>(event.side)]},
+                      {"event", kGaitEventNames[static_cast<std::size_t>(event.kind)]}});
+  }
+  return events;
+}
+
 Json ResultJson(const std::string& name, const Evaluation& evaluation,
                 const std::vector<int>& rows) {
   Json states = Json::array(), residuals = Json::array(), probabilities = Json::array();
@@ -119,7 +132,8 @@ Json ResultJson(const std::string& name, const Evaluation& evaluation,
             {"probability", std::move(probabilities)},
             {"error_mm", Json::array()},
             {"joints", Json::array()},
-            {"joint_error_mm", Json::array()}};
+            {"joint_error_mm", Json::array()},
+            {"events", EventsJson(evaluation.result)}};
   if (!evaluation.accuracy) return json;
   const FrameErrors errors = ErrorsOf(*evaluation.accuracy, rows);
   json["error_mm"] = errors.mean_mm;

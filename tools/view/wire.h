@@ -29,11 +29,12 @@ struct DrawnPose {
   std::optional<RivalPose> rival;
 };
 
-/// 328 bytes and 32 per capsule, 276 for a rival: u8 kind = 1, person, state, has_pose; u16 points,
+/// 392 bytes and 32 per capsule, 276 for a rival: u8 kind = 1, person, state, has_pose; u16 points,
 /// capsules; f64 capture [ms], publish [ms], frame; f32 residual [mm]; u32 voxels; f32
 /// points[23][3] [mm]; f32 capsules[n][8]: a, its radius, b, its radius [mm]; u32 id; f32
 /// probability (NaN: not known); f32 rival's probability (0: there is none), then f32 rival's
-/// points[23][3] [mm].
+/// points[23][3] [mm]; f32 contacts[4][4]: place [mm] of each of kContactPoints, and how likely it
+/// touches the floor (NaN: not known).
 std::string PoseBytes(const DrawnPose& pose);
 
 /// 32 bytes and 8 per voxel: u8 kind = 2, person; u16 0; u32 count; f64 capture [ms]; f32 voxel

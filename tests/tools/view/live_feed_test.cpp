@@ -38,7 +38,7 @@ CameraCalibration Camera() {
 }
 
 /// Of a pose without capsules and without a rival.
-constexpr std::size_t kPoseBytes = 328;
+constexpr std::size_t kPoseBytes = 392;
 
 /// A feed that hears what the test publishes, and what it put on the board.
 class LiveFeedTest : public ::testing::Test {

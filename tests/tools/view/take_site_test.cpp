@@ -12,7 +12,9 @@
 namespace mocap {
 namespace {
 
+using ::mocap::testing::kFirstNs;
 using ::mocap::testing::kFrames;
+using ::mocap::testing::kPeriodNs;
 
 /// Where each message of /pictures.bin begins.
 std::vector<std::size_t> PicturesIn(const std::string& bytes) {
@@ -59,6 +61,7 @@ TEST_F(TakeSiteTest, TellsFramesStatesAndErrors) {
   EXPECT_TRUE(result["error_mm"][1].is_null()) << "it was not tracked yet";
   EXPECT_NEAR(result["error_mm"][5], 12, 1e-6);
   EXPECT_NEAR(result["joint_error_mm"][3][5], 12, 1e-6);
+  EXPECT_TRUE(result["events"].empty()) << "of a result without feet";
 }
 
 TEST_F(TakeSiteTest, TellsHowSureEachPoseIs) {
@@ -74,13 +77,35 @@ TEST_F(TakeSiteTest, TellsHowSureEachPoseIs) {
   EXPECT_EQ(testing::NumberAt<float>(pose, 320), 0.6f);
 }
 
+TEST_F(TakeSiteTest, TellsStepsAtTheirTimes) {
+  Result written = ReadResult(result_);
+  const PoseRow last = written.poses.back();
+  for (int i = 1; i <= kFrames; ++i) {
+    PoseRow& row = written.poses.emplace_back(last);
+    row.frame += i;
+    row.timestamp_ns += i * kPeriodNs;
+  }
+  for (PoseRow& row : written.poses) {
+    row.further_W.setZero();
+    row.contacts.setZero();
+    if (row.frame >= 30) row.contacts[1] = 1;
+  }
+  WriteResult(result_, written);
+  TakeSite site(take_, {result_});
+  const auto events = nlohmann::json::parse(Get(site, "/take.json"))["results"][0]["events"];
+  ASSERT_EQ(events.size(), 1u);
+  EXPECT_EQ(events[0]["side"], "right");
+  EXPECT_EQ(events[0]["event"], "Foot Strike");
+  EXPECT_NEAR(events[0]["time_ms"], 1e-6 * (kFirstNs + 29.5 * kPeriodNs), 1e-3);
+}
+
 TEST_F(TakeSiteTest, GivesPosesOfResultAndTruth) {
   TakeSite site(take_, {result_});
   const std::string poses =
       Get(site, "/poses.bin", {{"result", "0"}, {"from", "4"}, {"count", "3"}});
   // A result without all sizes has no capsules.
-  ASSERT_EQ(poses.size(), 3u * 328);
-  EXPECT_EQ(testing::NumberAt<double>(poses, 328 + 24), 5);
+  ASSERT_EQ(poses.size(), 3u * 392);
+  EXPECT_EQ(testing::NumberAt<double>(poses, 392 + 24), 5);
   const std::string truth =
       Get(site, "/poses.bin", {{"truth", "0"}, {"from", "4"}, {"count", "1"}});
   ASSERT_EQ(truth.size(), 328u);
@@ -183,7 +208,7 @@ TEST_F(TakeSiteTest, EachTruePersonIsGivenAndWhoWasFollowedByWhom) {
   EXPECT_EQ(json["results"][0]["true_person"], 0);
   EXPECT_NEAR(json["results"][0]["error_mm"][5], 12, 1e-6);
   EXPECT_EQ(Get(site, "/poses.bin", {{"truth", "1"}, {"from", "4"}, {"count", "2"}}).size(),
-            2u * 328);
+            2u * 392);
   EXPECT_EQ(site.Answer({.method = "GET",
                          .path = "/poses.bin",
                          .query = {{"truth", "2"}, {"from", "0"}, {"count", "1"}},

@@ -20,11 +20,13 @@ TEST(Wire, APoseLiesWhereThePageReadsIt) {
   pose.row.voxels = 3000;
   pose.row.points_W.col(22) = Vector3(1, 2, 3);
   pose.row.probability = 0.75;
+  pose.row.further_W.col(static_cast<int>(Point::kToeR) - kPointCount) = Vector3(4, 5, 6);
+  pose.row.contacts[3] = 0.625;
   pose.rival = RivalPose{0.25, BodyPoints::Constant(7)};
   pose.rival->points_W.col(22) = Vector3(1, 2, 3);
   pose.capsules.emplace_back(Vector3(4, 5, 6), Vector3(7, 8, 9), 50, 40);
   const std::string bytes = PoseBytes(pose);
-  ASSERT_EQ(bytes.size(), 360u + 276);
+  ASSERT_EQ(bytes.size(), 360u + 276 + 64);
   EXPECT_EQ(bytes.substr(0, 4), std::string("\1\2\2\1", 4));
   EXPECT_EQ(testing::NumberAt<std::uint16_t>(bytes, 4), 23);
   EXPECT_EQ(testing::NumberAt<std::uint16_t>(bytes, 6), 1);
@@ -41,6 +43,8 @@ TEST(Wire, APoseLiesWhereThePageReadsIt) {
   EXPECT_EQ(testing::NumberAt<float>(bytes, 356), 0.25f);
   EXPECT_EQ(testing::NumberAt<float>(bytes, 360), 7);
   EXPECT_EQ(testing::NumberAt<float>(bytes, 360 + 22 * 12 + 8), 3);
+  EXPECT_EQ(testing::NumberAt<float>(bytes, 360 + 276 + 48), 4);
+  EXPECT_EQ(testing::NumberAt<float>(bytes, 360 + 276 + 60), 0.625f);
 }
 
 voxels_t Cube(int side) {

@@ -11,6 +11,8 @@ const TRAIL_STEP_MS = 25;
 const TRAIL_POINTS = ['fingertips_l', 'fingertips_r', 'foot_l', 'foot_r'];
 const PARTS = 10;
 const RIVAL_MM = 9;
+const CONTACT_MM = 26;
+const LEAST_CONTACT = 0.5;
 const OLD_OPACITY = 0.3;
 const DOUBT_OPACITY = 0.55;
 // A doubtful body's colour is mixed with the ground's, so that it is paler, not only thinner.
@@ -34,6 +36,7 @@ export class Figure extends THREE.Group {
     this.trails = new CapsuleMesh(
         4 * (TRAIL_MS / TRAIL_STEP_MS + 2),
         {thin: true, transparent: true, depthWrite: false, glow: 0.8});
+    this.contacts = new CapsuleMesh(4, {thin: true, transparent: true, depthWrite: false, glow: 0.9});
     this.voxels = new VoxelMesh();
     this.shadow = (onlySticks ? this.sticks : this.body).makeShadow();
     this.shadow.renderOrder = -1;
@@ -41,7 +44,7 @@ export class Figure extends THREE.Group {
     this.sticks.renderOrder = onlySticks ? 3 : 2;
     this.shownLayers = {body: true, joints: true, trails: true, voxels: true};
     this.rival.renderOrder = 2;
-    this.add(this.shadow, this.body, this.sticks, this.rival, this.trails);
+    this.add(this.shadow, this.contacts, this.body, this.sticks, this.rival, this.trails);
     this.castsShadow = true;
     this.setModel({point_names: [], bones: []});
     this.recolor();
@@ -86,6 +89,7 @@ export class Figure extends THREE.Group {
     this.isPale = isDoubtful(pose);
     this.showBody(pose, faded ? OLD_OPACITY : this.isPale ? DOUBT_OPACITY : 1);
     this.showSticks(pose, faded ? 0.35 : 1);
+    this.showContacts(pose);
     this.showRival(this.isPale && !faded ? pose.rival : null);
     const source = this.onlySticks ? this.sticks : this.body;
     this.shadow.visible = this.castsShadow && source.visible;
@@ -124,6 +128,18 @@ export class Figure extends THREE.Group {
     this.sticks.commit();
     this.sticks.visible = this.shownLayers.joints && this.sticks.count > 0;
     this.sticks.material.uniforms.opacity.value = opacity;
+  }
+
+  /** Draws a dot on the floor under each heel and toe that touches it. */
+  showContacts({contacts}) {
+    this.contacts.clear();
+    for (let i = 0; i < contacts.length; i += 4) {
+      const [x, y, , probability] = contacts.subarray(i, i + 4);
+      if (probability >= LEAST_CONTACT)
+        this.contacts.add(x, y, 0, CONTACT_MM, x, y, 0, CONTACT_MM, this.tint);
+    }
+    this.contacts.commit();
+    this.contacts.visible = this.shownLayers.joints && this.contacts.count > 0;
   }
 
   /** Draws the likeliest other pose in dashed lines; null: there is none. */
@@ -173,7 +189,8 @@ export class Figure extends THREE.Group {
 
   dispose() {
     for (const mesh
-             of [this.body, this.sticks, this.rival, this.trails, this.voxels, this.shadow]) {
+             of [this.body, this.sticks, this.rival, this.trails, this.contacts, this.voxels,
+                 this.shadow]) {
       mesh.geometry.dispose();
       mesh.material.dispose();
     }

@@ -23,6 +23,7 @@ export function interpolate(a, b, share) {
     frame: a.frame + share * (b.frame - a.frame),
     points: mix(a.points, b.points, share),
     capsules: mix(a.capsules, b.capsules, share),
+    contacts: mix(a.contacts, b.contacts, share),
     rival: a.rival && b.rival ? {...a.rival, points: mix(a.rival.points, b.rival.points, share)} :
                                 a.rival,
   };

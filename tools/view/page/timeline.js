@@ -14,6 +14,14 @@ export function frameAt(timesMs, timeMs) {
   return Math.max(0, low - 1);
 }
 
+/** @return the place of a time among frames, to a part of a frame. */
+export function placeAt(timesMs, timeMs) {
+  const frame = frameAt(timesMs, timeMs);
+  if (frame + 1 >= timesMs.length) return frame;
+  const begin = timesMs[frame];
+  return frame + Math.max(0, (timeMs - begin) / (timesMs[frame + 1] - begin));
+}
+
 export const SPEEDS = [0.1, 0.25, 0.5, 1, 2, 4];
 
 /** Playback position: a time between a take's first and last frame. */
@@ -36,10 +44,7 @@ export class PlayHead {
 
   /** Progress from this frame to the next, 0 to below 1. */
   get share() {
-    const frame = this.frame;
-    if (frame >= this.last) return 0;
-    const begin = this.timesMs[frame];
-    return Math.max(0, (this.timeMs - begin) / (this.timesMs[frame + 1] - begin));
+    return placeAt(this.timesMs, this.timeMs) - this.frame;
   }
 
   /** Starts, from the beginning if at the end; or stops, at a whole frame. */

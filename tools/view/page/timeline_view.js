@@ -4,13 +4,15 @@ import {byId, make, setText} from './dom.js';
 import {beginPlot, drawLabel, drawLevel} from './plot.js';
 import {fixed} from './text.js';
 import {color, figureColor, onTheme} from './theme.js';
-import {columnsOf, niceTop, quantileOf, runsOf, SPEEDS} from './timeline.js';
+import {columnsOf, niceTop, placeAt, quantileOf, runsOf, SPEEDS} from './timeline.js';
 import {STATES} from './wire.js';
 
 const LEFT = 44;
 const BAND = 12;
 const BAND_GAP = 4;
 const CURVES_TOP = 10;
+const FOOT = 4;  // height of a foot's marks
+const EVENTS = 2 * FOOT + 1;
 
 /** Adds a pattern to a band's range, for people who do not see colours. */
 function drawRun(context, state, x, y, width) {
@@ -70,8 +72,10 @@ export class TimelineView {
         ({error_mm: error, residual_mm: residual}) => this.hasTruth ? error : residual);
     const tops = this.curves.map((values) => quantileOf(values, 0.99) ?? 0);
     this.top = niceTop(Math.max(1, ...tops));
-    const bands = take.results.length * (BAND + BAND_GAP);
-    this.canvas.style.height = `${bands + CURVES_TOP + 72}px`;
+    this.hasEvents = take.results.some(({events}) => events.length > 0);
+    this.row = BAND + (this.hasEvents ? EVENTS : 0) + BAND_GAP;
+    this.curvesTop = take.results.length * this.row + CURVES_TOP;
+    this.canvas.style.height = `${this.curvesTop + 72}px`;
     this.canvas.setAttribute('aria-valuemax', head.last);
     this.tellLegend();
     this.bind();
@@ -88,6 +92,9 @@ export class TimelineView {
           .append(make(
               'span', {class: 'state-entry'}, make('span', {class: `state-key ${state}`}), state));
     }
+    if (!this.hasEvents) return;
+    byId('track-legend')
+        .append(' Marks: feet strike (long) and leave the floor (short), left above right.');
   }
 
   bind() {
@@ -123,10 +130,21 @@ export class TimelineView {
     return LEFT + (this.canvas.clientWidth - LEFT - 1) * frame / Math.max(1, this.head.last);
   }
 
+  /** Marks of foot strikes and foot offs. */
+  drawEvents(context, events, top) {
+    context.fillStyle = color('text');
+    for (const {time_ms: timeMs, side, event} of events) {
+      const x = this.x(placeAt(this.head.timesMs, timeMs));
+      const strikes = event === 'Foot Strike';
+      const y = top + (side === 'left' ? 0 : FOOT);
+      context.fillRect(x - 0.5, y, strikes ? 1.5 : 1, strikes ? FOOT - 0.5 : FOOT / 2);
+    }
+  }
+
   drawStill() {
     const {context, width, height} = beginPlot(this.canvas);
     this.take.results.forEach((result, k) => {
-      const y = k * (BAND + BAND_GAP);
+      const y = k * this.row;
       context.fillStyle = color(figureColor(k));
       context.fillRect(LEFT - 14, y, 8, BAND);
       for (const {value, from, to} of runsOf(result.states)) {
@@ -134,9 +152,10 @@ export class TimelineView {
         if (value === null) continue;
         drawRun(context, STATES[value], this.x(from), y, this.x(to) - this.x(from));
       }
+      this.drawEvents(context, result.events, y + BAND + 1);
     });
-    const top = this.take.results.length * (BAND + BAND_GAP) + CURVES_TOP;
-    const y = (value) => height - 4 - (height - top - 8) * Math.min(1.04, value / this.top);
+    const room = height - this.curvesTop - 8;
+    const y = (value) => height - 4 - room * Math.min(1.04, value / this.top);
     for (const share of [0, 0.5, 1]) {
       drawLevel(context, y(share * this.top), width, color('line'), LEFT);
       drawLabel(

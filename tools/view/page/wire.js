@@ -13,6 +13,9 @@ const VOXELS_HEADER_BYTES = 32;
 const PICTURE_HEADER_BYTES = 32;
 const POINT_COUNT = 23;
 const DOUBT_BYTES = 12;  // id and probabilities
+const CONTACT_FLOATS = 4;  // place and probability
+const CONTACT_COUNT = 4;
+const CONTACTS_BYTES = 4 * CONTACT_FLOATS * CONTACT_COUNT;
 const POINTS_BYTES = 4 * 3 * POINT_COUNT;
 const LINE_SIDES = 4;
 
@@ -33,7 +36,8 @@ export function kindOf(buffer, begin = 0) {
 
 /**
  * Decodes the pose at `begin`; `end` is the start of the next message. The probability is NaN if it
- * is not known; `rival` is the likeliest other pose, or null.
+ * is not known; `rival` is the likeliest other pose, or null. `contacts` has x, y, z [mm] and
+ * probability of each heel and toe; NaN if they are not known.
  */
 export function decodePose(buffer, begin = 0) {
   require(buffer, begin + POSE_HEADER_BYTES);
@@ -43,7 +47,8 @@ export function decodePose(buffer, begin = 0) {
   const rivalAt = begin + idAt + DOUBT_BYTES;
   require(buffer, rivalAt);
   const rivalProbability = view.getFloat32(idAt + 8, true);
-  const end = rivalAt + (rivalProbability > 0 ? POINTS_BYTES : 0);
+  const contactsAt = rivalAt + (rivalProbability > 0 ? POINTS_BYTES : 0);
+  const end = contactsAt + CONTACTS_BYTES;
   require(buffer, end);
   return {
     person: view.getUint8(1),
@@ -61,6 +66,7 @@ export function decodePose(buffer, begin = 0) {
     rival: rivalProbability > 0 ?
         {probability: rivalProbability, points: floats(buffer, rivalAt, 3 * POINT_COUNT)} :
         null,
+    contacts: floats(buffer, contactsAt, CONTACT_FLOATS * CONTACT_COUNT),
     end,
   };
 }

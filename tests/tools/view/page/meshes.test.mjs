@@ -26,6 +26,7 @@ function poseAt(timeMs, {capsules = 1, hasPose = true} = {}) {
     hasPose,
     points: Float32Array.from([0, 0, 1000, timeMs, 0, 1200, 0, 100, 50]),
     capsules: new Float32Array(8 * capsules).fill(1),
+    contacts: new Float32Array(16).fill(NaN),
   };
 }
 
@@ -54,6 +55,19 @@ test('the drawn pose is read from what is drawn', () => {
   assert.equal(figure.drawnPose(), null);
   figure.show(poseAt(500, {hasPose: false}));
   assert.equal(figure.visible, false);
+});
+
+test('a foot that touches the floor has a dot under it', () => {
+  const figure = figureOf();
+  figure.show(poseAt(500));
+  assert.equal(figure.contacts.visible, false);
+  const contacts = Float32Array.from([10, 20, 5, 0.9, 30, 40, 5, 0.2, 50, 60, 5, 0.5, 0, 0, 0, NaN]);
+  figure.show({...poseAt(500), contacts});
+  assert.deepEqual([...figure.contacts.lastStarts(2)], [10, 20, 0, 50, 60, 0]);
+  assert.equal(figure.contacts.visible, true);
+  figure.setLayer('joints', false);
+  figure.show({...poseAt(500), contacts});
+  assert.equal(figure.contacts.visible, false);
 });
 
 test('a pose in doubt is pale, and its rival is dashed', () => {

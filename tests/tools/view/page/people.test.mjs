@@ -18,6 +18,7 @@ function pose(person, id, timeMs, more = {}) {
     residualMm: 10 + id,
     points: new Float32Array([timeMs, 0, 0]),
     capsules: new Float32Array(),
+    contacts: new Float32Array(),
     ...more
   };
 }

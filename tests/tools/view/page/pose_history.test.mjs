@@ -11,6 +11,7 @@ function pose(timeMs, x, more = {}) {
     state: 'tracking',
     points: new Float32Array([x, 0, 0]),
     capsules: new Float32Array(8).fill(x),
+    contacts: new Float32Array(16).fill(x),
     ...more
   };
 }

@@ -16,7 +16,8 @@ function open(result = {}) {
   const page = Object.fromEntries(IDS.map((id) => [id, freshElement(id)]));
   page.track.setPointerCapture = () => {};
   const head = new PlayHead(TIMES);
-  const whole = {states: TIMES.map(() => 2), error_mm: [], residual_mm: TIMES.map(() => 8)};
+  const whole =
+      {states: TIMES.map(() => 2), error_mm: [], residual_mm: TIMES.map(() => 8), events: []};
   const view = new TimelineView({results: [{...whole, ...result}]}, head);
   return {view, head, page};
 }
@@ -88,4 +89,19 @@ test('with truth the curve is the error, without it the residual', () => {
   const withTruth = open({error_mm: TIMES.map(() => 20)});
   assert.match(withTruth.page['track-legend'].textContent, /^Mean error/);
   assert.equal(withTruth.view.top, 20);
+});
+
+test('steps are marked where they are, and make room for themselves', () => {
+  const without = open();
+  assert.doesNotMatch(without.page['track-legend'].textContent, /Marks/);
+  const event = (time_ms, side, kind) => ({time_ms, side, event: kind});
+  const {view, page} =
+      open({events: [event(1125, 'left', 'Foot Strike'), event(1500, 'right', 'Foot Off')]});
+  assert.match(page['track-legend'].textContent, /Marks/);
+  assert.ok(parseInt(page.track.style.height) > parseInt(without.page.track.style.height));
+  const marks = [];
+  view.drawEvents({fillRect: (...numbers) => marks.push(numbers)}, view.take.results[0].events, 20);
+  assert.deepEqual(marks.map(([x]) => x + 0.5), [12.5, 50].map((frame) => view.x(frame)));
+  assert.ok(marks[0][1] < marks[1][1], 'left above right');
+  assert.ok(marks[0][3] > marks[1][3], 'strikes are longer');
 });

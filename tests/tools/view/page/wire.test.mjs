@@ -4,7 +4,7 @@ import test from 'node:test';
 import {decodeAll, decodePicture, decodePose, decodeVoxels, kindOf, splitLines} from '../../../../tools/view/page/wire.js';
 
 function poseBytes({person = 0, id = 0, capsules = 2, frame = 7, rival = 0} = {}) {
-  const buffer = new ArrayBuffer(328 + 32 * capsules + (rival > 0 ? 276 : 0));
+  const buffer = new ArrayBuffer(392 + 32 * capsules + (rival > 0 ? 276 : 0));
   const view = new DataView(buffer);
   [1, person, 2, 1].forEach((value, i) => view.setUint8(i, value));
   view.setUint16(4, 23, true);
@@ -20,6 +20,7 @@ function poseBytes({person = 0, id = 0, capsules = 2, frame = 7, rival = 0} = {}
   view.setFloat32(idAt + 4, 0.75, true);
   view.setFloat32(idAt + 8, rival, true);
   for (let i = 0; rival > 0 && i < 69; ++i) view.setFloat32(idAt + 12 + 4 * i, 200 + i, true);
+  for (let i = 0; i < 16; ++i) view.setFloat32(buffer.byteLength - 64 + 4 * i, 300 + i, true);
   return buffer;
 }
 
@@ -61,6 +62,7 @@ test('a pose is read field by field', () => {
   assert.equal(pose.capsules.length, 16);
   assert.equal(pose.probability, 0.75);
   assert.equal(pose.rival, null);
+  assert.deepEqual([...pose.contacts.slice(12)], [312, 313, 314, 315]);
 });
 
 test('a rival is read with its points', () => {
@@ -68,6 +70,7 @@ test('a rival is read with its points', () => {
   assert.equal(rival.probability, 0.25);
   assert.equal(rival.points.length, 69);
   assert.deepEqual([...rival.points.slice(66)], [266, 267, 268]);
+  assert.equal(decodePose(poseBytes({rival: 0.25})).contacts[0], 300);
 });
 
 test('poses that stand one after the other are told apart by their capsules and rivals', () => {
