@@ -59,6 +59,10 @@ def details_message(frame, number, place, probability):
     message.utime, message.frame = START_US + frame * 10_000, frame
     message.person, message.place, message.state = number, place, pose_t.TRACKING
     message.probability = probability
+    message.point_name, message.point_mm, message.point_std_mm = ["wrist_l", "nose"], [[1, 2, 3], [4, 5, 6]], [7, 8]
+    message.num_points = len(message.point_name)
+    message.contact_name, message.contact = ["toe_l", "heel_l", "knee_l"], [0.75, 0.25, 1]
+    message.num_contacts = len(message.contact_name)
     return message
 
 

@@ -144,6 +144,17 @@ class ListenTest(LogTest):
         self.log.write()
         np.testing.assert_array_equal([pose.probability for pose in mocapd.listen(self.url)], [np.nan, 0.6, np.nan])
 
+    def test_details_tell_points_and_contacts_by_name(self):
+        self.log.add("MOCAP_BODY", body_message()).add("MOCAP_POSE", pose_message(3))
+        self.log.add("MOCAP_DETAILS", details_message(4, 12, 0, 0.6)).add("MOCAP_POSE", pose_message(4)).write()
+        before, pose = mocapd.listen(self.url)
+        result = mocapd.read_log(self.log.path)
+        self.assertTrue(np.isnan(before.contacts).all() and np.isnan(before.point("wrist_l")).all())
+        np.testing.assert_array_equal(pose.contacts, [0.25, np.nan, 0.75, np.nan])
+        np.testing.assert_array_equal(pose.point("wrist_l"), [1, 2, 3])
+        np.testing.assert_array_equal(result.contacts, [before.contacts, pose.contacts])
+        np.testing.assert_array_equal(result.point("wrist_l")[1], [1, 2, 3])
+
     def test_everybody_has_a_probability_of_their_own(self):
         for number in (1, 4):
             self.log.add("MOCAP_BODIES", person_body_message(number))
@@ -159,8 +170,8 @@ class ListenTest(LogTest):
         pose, = mocapd.listen(self.url)
         result = mocapd.read_log(self.log.path)
         for some in (pose, result):
-            with self.assertRaisesRegex(ValueError, "no point 'wrist_l'; there are .*torso, head, .*fingertips_l"):
-                some.point("wrist_l")
+            with self.assertRaisesRegex(ValueError, "no point 'wrist'; there are wrist_.*torso, head, .*fingertips_l"):
+                some.point("wrist")
             with self.assertRaisesRegex(ValueError, "no joint 'elbow_l'; there are elbow_l_z, neck_x, knee_r_y"):
                 some.angle("elbow_l")
         with self.assertRaisesRegex(ValueError, "no joint 'theta_17'; .* theta_16"):

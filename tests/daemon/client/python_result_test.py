@@ -112,6 +112,11 @@ class ReadResultTest(unittest.TestCase):
         np.testing.assert_array_equal(result.angle("knee_r_y"), result.theta_rad[:, 15])
         self.assertEqual(result.points_std_mm[0, 1], 6.5)
 
+    def test_contacts_are_found_by_name(self):
+        result = self.result(("contact_toe_l", "contact_heel_l"), ("0.75", "0.25"))
+        np.testing.assert_array_equal(result.contacts, [[0.25, np.nan, 0.75, np.nan]])
+        np.testing.assert_array_equal(result.to_columns()["contact_toe_l"], [0.75])
+
     def test_what_has_no_value_is_nan(self):
         result = self.result(("probability", "deviation_head_mm", "wrist_l_x_rad"), ("", "", ""), self.BODY + self.JOINTS)
         self.assertTrue(np.isnan(result.probability[0]))

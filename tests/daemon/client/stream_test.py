@@ -19,7 +19,7 @@ from client_log import BIN, TrackedTake, free_group, mocap, need_multicast
 SOURCE = os.path.join(os.path.dirname(os.path.abspath(__file__)), "../../..")
 EXAMPLES = os.path.join(SOURCE, "docs/examples")
 LAST_BONE = b"RightFoot\0"
-ROUNDED_MM, ROUNDED_RAD = 6e-4, 6e-7
+ROUNDED_MM, ROUNDED_RAD, ROUNDED_SHARE = 6e-4, 6e-7, 6e-4
 
 
 def lines_of(log, *words):
@@ -45,9 +45,16 @@ class StreamTest(unittest.TestCase):
             if not pose.is_tracked:
                 continue
             self.assertEqual(tuple(line["joints_rad"]), pose.body.joint_names)
-            self.assertEqual(tuple(line["points_mm"]), mocapd.POINT_NAMES)
-            np.testing.assert_allclose(list(line["points_mm"].values()), pose.points_mm, rtol=0, atol=ROUNDED_MM)
-            np.testing.assert_allclose(list(line["points_std_mm"].values()), pose.points_std_mm, rtol=0, atol=ROUNDED_MM)
+            known = [name for name in mocapd.POINT_NAMES + mocapd.FURTHER_POINT_NAMES if np.isfinite(pose.point(name)).all()]
+            self.assertEqual(list(line["points_mm"]), known)
+            np.testing.assert_allclose(list(line["points_mm"].values()), [pose.point(name) for name in known], rtol=0, atol=ROUNDED_MM)
+            deviations = dict(zip(mocapd.POINT_NAMES + mocapd.FURTHER_POINT_NAMES,
+                                  [*pose.points_std_mm, *pose.further_points_std_mm]))
+            np.testing.assert_allclose(list(line["points_std_mm"].values()), [deviations[name] for name in known], rtol=0,
+                                       atol=ROUNDED_MM)
+            contacts = {name: contact for name, contact in zip(mocapd.CONTACT_NAMES, pose.contacts) if np.isfinite(contact)}
+            self.assertEqual(list(line.get("contacts", {})), list(contacts))
+            np.testing.assert_allclose(list(line.get("contacts", {}).values()), list(contacts.values()), rtol=0, atol=ROUNDED_SHARE)
             np.testing.assert_allclose(list(line["joints_rad"].values()), pose.joints_rad, rtol=0, atol=ROUNDED_RAD)
             np.testing.assert_allclose(line["torso_rotation"], pose.torso_rotation, rtol=0, atol=ROUNDED_RAD)
             np.testing.assert_allclose(line["torso_mm"], pose.torso_mm, rtol=0, atol=ROUNDED_MM)

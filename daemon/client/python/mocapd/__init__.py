@@ -18,8 +18,8 @@ Millimetres, radians; the studio's frame is right-handed with z up and the floor
 Whatever was not tracked is NaN. LCM's own Python module is not needed.
 """
 from .live import DEFAULT_URL, listen, listen_people, messages
-from .poses import FURTHER_POINT_NAMES, PAPER_JOINT_NAMES, POINT_NAMES, Body, Pose
+from .poses import CONTACT_NAMES, FURTHER_POINT_NAMES, PAPER_JOINT_NAMES, POINT_NAMES, Body, Pose
 from .results import Result, read_log, read_people, read_result
 
-__all__ = ["DEFAULT_URL", "FURTHER_POINT_NAMES", "PAPER_JOINT_NAMES", "POINT_NAMES", "Body", "Pose", "Result", "listen",
-           "listen_people", "messages", "read_log", "read_people", "read_result"]
+__all__ = ["CONTACT_NAMES", "DEFAULT_URL", "FURTHER_POINT_NAMES", "PAPER_JOINT_NAMES", "POINT_NAMES", "Body", "Pose", "Result",
+           "listen", "listen_people", "messages", "read_log", "read_people", "read_result"]

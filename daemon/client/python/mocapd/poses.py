@@ -24,6 +24,8 @@ POINT_NAMES: tuple[str, ...] = (
 FURTHER_POINT_NAMES: tuple[str, ...] = (
     "clavicle_l", "clavicle_r", "wrist_l", "wrist_r", "ankle_l", "ankle_r", "heel_l", "heel_r", "ball_l", "ball_r", "toe_l", "toe_r",
     "knuckles_l", "knuckles_r")
+#: Parts of the feet that touch the floor, in the order of `contacts`; a toe stands for the forefoot.
+CONTACT_NAMES: tuple[str, ...] = ("heel_l", "heel_r", "toe_l", "toe_r")
 #: Names of the paper's sixteen angles, theta_1 to theta_16, in mocapd's own body tables.
 PAPER_JOINT_NAMES: tuple[str, ...] = (
     "neck_x", "neck_y", "shoulder_l_x", "shoulder_r_x", "shoulder_l_z", "shoulder_r_z", "shoulder_l_y", "shoulder_r_y", "elbow_l_z",
@@ -118,6 +120,7 @@ class Told:
     probability: float = float("nan")  #: of the pose, 0 to 1
     further_points_mm: np.ndarray = dataclasses.field(default_factory=lambda: np.full((len(FURTHER_POINT_NAMES), 3), np.nan))
     further_points_std_mm: np.ndarray = dataclasses.field(default_factory=lambda: np.full(len(FURTHER_POINT_NAMES), np.nan))
+    contacts: np.ndarray = dataclasses.field(default_factory=lambda: np.full(len(CONTACT_NAMES), np.nan))  #: 0 to 1
 
     @classmethod
     def of(cls, details: person_details_t) -> Told:
@@ -129,6 +132,10 @@ class Told:
             if np.isfinite(details.point_mm[place]).all():
                 told.further_points_mm[i] = details.point_mm[place]
                 told.further_points_std_mm[i] = details.point_std_mm[place]
+        for i, name in enumerate(CONTACT_NAMES):
+            if name in details.contact_name:
+                contact = details.contact[details.contact_name.index(name)]
+                told.contacts[i] = contact if 0 <= contact <= 1 else np.nan
         return told
 
 
@@ -151,6 +158,7 @@ class Pose:
     probability: float  #: of the pose, 0 to 1; NaN: not known
     further_points_mm: np.ndarray  #: 14 x 3, in the order of FURTHER_POINT_NAMES; NaN: not known
     further_points_std_mm: np.ndarray  #: 14
+    contacts: np.ndarray  #: 4, how likely CONTACT_NAMES touch the floor, 0 to 1; NaN: not known
 
     @property
     def is_tracked(self) -> bool:

@@ -13,8 +13,8 @@ import numpy as np
 from .lcm_log import listed_prefixes, read_events
 from .mocap.people_t import people_t
 from .mocap.pose_t import pose_t
-from .poses import (FURTHER_POINT_NAMES, PAPER_JOINT_NAMES, POINT_NAMES, THETA_NAMES, TRACKING, Body, PoseDecoder, SetDetails, Told,
-                    decoded, has_numbers, is_time, place_of, rotation_matrix, state_name)
+from .poses import (CONTACT_NAMES, FURTHER_POINT_NAMES, PAPER_JOINT_NAMES, POINT_NAMES, THETA_NAMES, TRACKING, Body, PoseDecoder,
+                    SetDetails, Told, decoded, has_numbers, is_time, place_of, rotation_matrix, state_name)
 
 if TYPE_CHECKING:
     import pandas
@@ -50,6 +50,7 @@ class Result:
     probability: np.ndarray  #: n, of the pose, 0 to 1; NaN where the tracker could not tell, and in results without
     further_points_mm: np.ndarray  #: n x 14 x 3, in the order of FURTHER_POINT_NAMES; NaN where they are not known
     further_points_std_mm: np.ndarray  #: n x 14
+    contacts: np.ndarray  #: n x 4, how likely CONTACT_NAMES touch the floor, 0 to 1; NaN where it is not known
     joint_names: tuple[str, ...]  #: as of live poses; in results without them, the paper's sixteen
     joints_rad: np.ndarray  #: n x joint_names
 
@@ -94,6 +95,7 @@ class Result:
                     for k, axis in enumerate("xyz")}
         deviations = np.concatenate([self.points_std_mm, self.further_points_std_mm], axis=1)
         columns |= {f"deviation_{name}_mm": deviations[:, i] for i, name in enumerate(POINT_NAMES + FURTHER_POINT_NAMES)}
+        columns |= {f"contact_{name}": self.contacts[:, i] for i, name in enumerate(CONTACT_NAMES)}
         columns["probability"] = self.probability
         return columns
 
@@ -129,6 +131,7 @@ def read_result(folder: Path) -> Result:
                          deviations=[_place_in(header, f"deviation_{point}_mm") for point in POINT_NAMES],
                          further=[_place_in(header, f"{point}_{axis}_mm") for point in FURTHER_POINT_NAMES for axis in "xyz"],
                          further_deviations=[_place_in(header, f"deviation_{point}_mm") for point in FURTHER_POINT_NAMES],
+                         contacts=[_place_in(header, f"contact_{point}") for point in CONTACT_NAMES],
                          probability=_place_in(header, "probability"))
         for row in filter(None, reader):
             try:
@@ -302,6 +305,7 @@ class _Places(NamedTuple):
     deviations: list[int | None]
     further: list[int | None]
     further_deviations: list[int | None]
+    contacts: list[int | None]
     probability: int | None
 
 
@@ -329,7 +333,8 @@ class _Rows:
                            numbers(THETA_PLACE, POINT_PLACE), numbers(POINT_PLACE, RESIDUAL_PLACE).reshape(-1, 3),
                            np.array(float(row[RESIDUAL_PLACE])), numbers_or_none(places.deviations),
                            np.array(number_or_none(places.probability)), numbers_or_none(places.further).reshape(-1, 3),
-                           numbers_or_none(places.further_deviations), numbers_or_none(places.joints)))
+                           numbers_or_none(places.further_deviations), numbers_or_none(places.contacts),
+                           numbers_or_none(places.joints)))
 
     def add_message(self, message: Any, utime: int, frame: int, told: Told) -> None:
         state = state_name(message.state)
@@ -342,11 +347,12 @@ class _Rows:
             np.array(message.torso_mm), np.array(message.torso_axis), np.array(message.torso_angle_rad),
             np.array(message.theta_rad), np.array(message.point_mm), np.array(message.residual_mm),
             np.array(message.point_std_mm), np.array(told.probability), told.further_points_mm, told.further_points_std_mm,
-            np.array(message.joint_rad)))
+            told.contacts, np.array(message.joint_rad)))
 
     def result(self, model: str, stature_mm: float, sizes_mm: dict[str, float], joint_names: tuple[str, ...]) -> Result:
         shapes = ((3,), (3,), (), (len(THETA_NAMES),), (len(POINT_NAMES), 3), (), (len(POINT_NAMES),), (),
-                  (len(FURTHER_POINT_NAMES), 3), (len(FURTHER_POINT_NAMES),), (len(joint_names),))
+                  (len(FURTHER_POINT_NAMES), 3), (len(FURTHER_POINT_NAMES),), (len(CONTACT_NAMES),),
+                  (len(joint_names),))
         columns = [np.full((len(self.heads), *shape), np.nan) for shape in shapes]
         for i, pose in enumerate(self.poses):
             if pose is None:
@@ -356,10 +362,11 @@ class _Rows:
                 if column[i].shape == value.shape:
                     column[i] = value
         frames, times, states = zip(*self.heads) if self.heads else ((), (), ())
-        torso_mm, axes, angles, theta, points, residual, deviations, probability, further, further_deviations, joints = columns
+        (torso_mm, axes, angles, theta, points, residual, deviations, probability, further, further_deviations, contacts,
+         joints) = columns
         rotation = np.array([rotation_matrix(*turn) for turn in zip(axes, angles)]).reshape(-1, 3, 3)
         return Result(model=model, stature_mm=stature_mm, sizes_mm=sizes_mm, frame=np.array(frames, dtype=np.int64),
                       timestamp_ns=np.array(times, dtype=np.int64), state=np.array(states, dtype=str), torso_mm=torso_mm,
                       torso_axis=axes, torso_angle_rad=angles, torso_rotation=rotation, theta_rad=theta, points_mm=points,
                       residual_mm=residual, points_std_mm=deviations, probability=probability, further_points_mm=further,
-                      further_points_std_mm=further_deviations, joint_names=joint_names, joints_rad=joints)
+                      further_points_std_mm=further_deviations, contacts=contacts, joint_names=joint_names, joints_rad=joints)
