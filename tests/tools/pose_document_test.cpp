@@ -122,15 +122,24 @@ TEST(PoseDocument, ListsTheColumnsOfAResultInOrder) {
   EXPECT_THAT(document, HasSubstr("`" + fmt::format("{}", fmt::join(kPointNames, "`, `")) + "`"));
   EXPECT_THAT(document,
               HasSubstr("`" + fmt::format("{}", fmt::join(kCoordinateNames, "`, `")) + "`"));
-  std::vector<std::string> further = {JointColumn("<joint>"), DeviationColumn("<point>")};
-  for (const FurtherColumn& column : FurtherColumns({}, ListedJoints::kAll)) {
-    if (!column.name.starts_with("deviation_")) further.push_back(column.name);
-  }
   std::size_t end = 0;
-  for (const std::string& column : further) {
-    end = document.find("| then | `" + column + "` |", end);
-    EXPECT_NE(end, std::string::npos) << column;
-  }
+  const auto expect_next = [&](const std::string& told) {
+    end = document.find("| then | " + told + " |", end);
+    EXPECT_NE(end, std::string::npos) << told;
+  };
+  expect_next('`' + JointColumn("<joint>") + '`');
+  // Of further columns of a kind, the first and the last are named.
+  const std::vector<FurtherColumn> further = FurtherColumns({}, ListedJoints::kAll);
+  constexpr std::size_t kCoordinates = 3 * kFurtherPointCount;
+  const auto expect_kind = [&](std::size_t first, std::size_t count) {
+    expect_next(
+        fmt::format("`{}` … `{}`", further.at(first).name, further.at(first + count - 1).name));
+  };
+  expect_kind(0, kCoordinates);
+  expect_next('`' + DeviationColumn("<point>") + '`');
+  expect_kind(kCoordinates + kPlaceCount, kContactCount);
+  expect_next('`' + further.at(kCoordinates + kPlaceCount + kContactCount).name + '`');
+  EXPECT_EQ(further.size(), kCoordinates + kPlaceCount + kContactCount + 1);
 }
 
 /// The numbers of a file's last frame, such as "LeftArm Zrotation".

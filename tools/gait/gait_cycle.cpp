@@ -2,12 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
+
+#include "core/degrees.h"
 
 namespace mocap {
 namespace {
-
-constexpr double kDegreesPerRad = 180 / std::numbers::pi;
 
 using Coordinates = std::array<double, kCoordinateNames.size()>;
 

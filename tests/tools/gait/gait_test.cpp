@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "core/degrees.h"
 #include "core/errors.h"
 #include "drivers/virtual_studio/truth.h"
 #include "tools/gait/gait_analysis.h"
@@ -219,7 +220,6 @@ TEST(Gait, ACurveHasTheMeanAndSpreadOfItsStrides) {
   const std::vector<CycleCurve> curves = CurvesOf(angles, 0, strides);
   const auto knee = std::ranges::find(curves, "knee_angle_l", &CycleCurve::angle);
   ASSERT_NE(knee, curves.end());
-  constexpr double kDegreesPerRad = 57.29577951308232;
   EXPECT_EQ(knee->strides, 2);
   EXPECT_NEAR(knee->mean_deg[50], 0.2 * kDegreesPerRad, 1e-9);
   EXPECT_NEAR(knee->spread_deg[50], std::sqrt(0.02) * kDegreesPerRad, 1e-9);

@@ -191,7 +191,7 @@ TEST_F(LiveFeedTest, EverybodyOfASetGoesOutAtOnceInColoursOfTheirOwn) {
   EXPECT_EQ(PosesAt<std::uint8_t>(1), 0);
   EXPECT_EQ(PosesAt<std::uint32_t>(316), 4u);
   EXPECT_EQ(PosesAt<std::uint8_t>(second + 1), 1);
-  EXPECT_EQ(PosesAt<std::uint32_t>(board_.at(LiveFeed::kPoses).size() - 12), 9u);
+  EXPECT_EQ(PosesAt<std::uint32_t>(board_.at(LiveFeed::kPoses).size() - 76), 9u);
   EXPECT_NEAR(PosesAt<float>(second + 316), 900, 500) << "the flesh is where the person is";
 }
 
@@ -210,7 +210,7 @@ TEST_F(LiveFeedTest, APersonInDoubtComesWithTheRival) {
   EXPECT_TRUE(std::isnan(PosesAt<float>(320))) << "nothing was told of the first";
   EXPECT_EQ(PosesAt<float>(kPoseBytes + 320), 0.6f);
   EXPECT_EQ(PosesAt<float>(kPoseBytes + 324), 0.25f);
-  EXPECT_EQ(PosesAt<float>(2 * kPoseBytes + 272), 3);
+  EXPECT_EQ(PosesAt<float>(kPoseBytes + 328 + 272), 3);
   details.rival_point_mm.resize(3);
   details.num_rival_points = 3;
   Publish("left.MOCAP_DETAILS", details);

@@ -94,7 +94,10 @@ export class TimelineView {
     }
     if (!this.hasEvents) return;
     byId('track-legend')
-        .append(' Marks: feet strike (long) and leave the floor (short), left above right.');
+        .append(make('span', {
+          class: 'state-entry',
+          text: 'Marks: feet strike (long) and leave the floor (short), left above right.'
+        }));
   }
 
   bind() {
