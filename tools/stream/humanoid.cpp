@@ -15,8 +15,9 @@ constexpr std::array<std::pair<Point, Point>, kHumanoid.size()> kJoints = {{
     {Point::kShoulderR, Point::kShoulderR}, {Point::kElbowR, Point::kElbowR},
     {Point::kWristR, Point::kWristR},       {Point::kHipL, Point::kHipL},
     {Point::kKneeL, Point::kKneeL},         {Point::kAnkleL, Point::kAnkleL},
-    {Point::kHipR, Point::kHipR},           {Point::kKneeR, Point::kKneeR},
-    {Point::kAnkleR, Point::kAnkleR},
+    {Point::kBallL, Point::kBallL},         {Point::kHipR, Point::kHipR},
+    {Point::kKneeR, Point::kKneeR},         {Point::kAnkleR, Point::kAnkleR},
+    {Point::kBallR, Point::kBallR},
 }};
 
 }  // namespace

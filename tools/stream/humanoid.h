@@ -14,8 +14,8 @@ struct HumanoidBone {
   Segment segment;        ///< Rotates with the bone.
 };
 
-/// The humanoid bones of a measured body: all that VRM requires, and the clavicles.
-inline constexpr std::array<HumanoidBone, 19> kHumanoid = {{
+/// The humanoid bones of a measured body: all that VRM requires, clavicles and toes.
+inline constexpr std::array<HumanoidBone, 21> kHumanoid = {{
     {"Hips", -1, Segment::kPelvis},
     {"Spine", 0, Segment::kTorso},
     {"Chest", 1, Segment::kTorso},
@@ -32,9 +32,11 @@ inline constexpr std::array<HumanoidBone, 19> kHumanoid = {{
     {"LeftUpperLeg", 0, Segment::kThighL},
     {"LeftLowerLeg", 13, Segment::kCalfL},
     {"LeftFoot", 14, Segment::kFootL},
+    {"LeftToes", 15, Segment::kFootL},
     {"RightUpperLeg", 0, Segment::kThighR},
-    {"RightLowerLeg", 16, Segment::kCalfR},
-    {"RightFoot", 17, Segment::kFootR},
+    {"RightLowerLeg", 17, Segment::kCalfR},
+    {"RightFoot", 18, Segment::kFootR},
+    {"RightToes", 19, Segment::kFootR},
 }};
 
 /// Transforms from each bone to its parent, in the studio's axes: x forward, y left, z up [mm]. In
@@ -43,7 +45,7 @@ using HumanoidPose = std::array<RigidTransform, kHumanoid.size()>;
 
 /// Computes the bones of a pose. Hips is the middle of the hip joints. Spine is the torso's
 /// centroid, about which a waist turns. Chest is halfway from there to the next joint, Head halfway
-/// from the neck to its end. All other bones are at their joints.
+/// from the neck to its end. All other bones are at their joints. Toes do not turn.
 HumanoidPose HumanoidPoseOf(const BodyModel& body, const PoseState& pose);
 
 }  // namespace mocap

@@ -36,16 +36,17 @@ PARENTS = {
     "Hips": None, "Spine": "Hips", "Chest": "Spine", "Neck": "Chest", "Head": "Neck",
     "LeftShoulder": "Chest", "LeftUpperArm": "LeftShoulder", "LeftLowerArm": "LeftUpperArm", "LeftHand": "LeftLowerArm",
     "RightShoulder": "Chest", "RightUpperArm": "RightShoulder", "RightLowerArm": "RightUpperArm", "RightHand": "RightLowerArm",
-    "LeftUpperLeg": "Hips", "LeftLowerLeg": "LeftUpperLeg", "LeftFoot": "LeftLowerLeg",
-    "RightUpperLeg": "Hips", "RightLowerLeg": "RightUpperLeg", "RightFoot": "RightLowerLeg",
+    "LeftUpperLeg": "Hips", "LeftLowerLeg": "LeftUpperLeg", "LeftFoot": "LeftLowerLeg", "LeftToes": "LeftFoot",
+    "RightUpperLeg": "Hips", "RightLowerLeg": "RightUpperLeg", "RightFoot": "RightLowerLeg", "RightToes": "RightFoot",
 }
 # Where a bone is drawn to, without effect on its rotation: the next joint, or at the end of a limb a direction and a share of the bone before.
 NEXT = {"Hips": "Spine", "Spine": "Chest", "Chest": "Neck", "Neck": "Head", "LeftShoulder": "LeftUpperArm",
         "LeftUpperArm": "LeftLowerArm", "LeftLowerArm": "LeftHand", "RightShoulder": "RightUpperArm",
         "RightUpperArm": "RightLowerArm", "RightLowerArm": "RightHand", "LeftUpperLeg": "LeftLowerLeg",
-        "LeftLowerLeg": "LeftFoot", "RightUpperLeg": "RightLowerLeg", "RightLowerLeg": "RightFoot"}
+        "LeftLowerLeg": "LeftFoot", "LeftFoot": "LeftToes", "RightUpperLeg": "RightLowerLeg", "RightLowerLeg": "RightFoot",
+        "RightFoot": "RightToes"}
 ENDS = {"Head": (Vector((0, 0, 1)), 1.5), "LeftHand": (Vector((1, 0, 0)), 0.7), "RightHand": (Vector((-1, 0, 0)), 0.7),
-        "LeftFoot": (Vector((0, -1, 0)), 0.5), "RightFoot": (Vector((0, -1, 0)), 0.5)}
+        "LeftToes": (Vector((0, -1, 0)), 0.5), "RightToes": (Vector((0, -1, 0)), 0.5)}
 
 # Unity is left-handed with x right, y up and z forward. Here x is the person's left and y points backwards.
 BLENDER_FROM_UNITY = Matrix(((-1, 0, 0), (0, 0, -1), (0, 1, 0)))
@@ -153,7 +154,7 @@ def joints_of(pose, turned=True):
         joints[name] = joints[parent] @ local if parent else local
     if not turned:
         hips = pose["Hips"].translation
-        lift = Vector((-hips.x, -hips.y, -joints["LeftFoot"].translation.z))
+        lift = Vector((-hips.x, -hips.y, -joints["LeftToes"].translation.z))
         joints = {name: Matrix.Translation(lift) @ joint for name, joint in joints.items()}
     return joints
 

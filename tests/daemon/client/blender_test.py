@@ -79,7 +79,7 @@ def in_blender(mocap, log, port):
     assert stream.returncode == 0, stream.returncode
     assert poses >= FEWEST_POSES, f"{poses} poses"
     assert worst < MOST_APART_M, f"{1000 * worst:.2f} mm apart"
-    assert len(armature.pose.bones) == 19
+    assert len(armature.pose.bones) == 21
     assert not live.receiver.is_tracked or lines[-1]["state"] == "tracking"
     bpy.ops.mocapd.stop()
     bpy.ops.preferences.addon_disable(module="mocapd_live")

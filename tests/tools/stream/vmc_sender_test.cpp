@@ -144,9 +144,11 @@ const std::map<std::string, std::string> kParents = {{"Hips", ""},
                                                      {"LeftUpperLeg", "Hips"},
                                                      {"LeftLowerLeg", "LeftUpperLeg"},
                                                      {"LeftFoot", "LeftLowerLeg"},
+                                                     {"LeftToes", "LeftFoot"},
                                                      {"RightUpperLeg", "Hips"},
                                                      {"RightLowerLeg", "RightUpperLeg"},
-                                                     {"RightFoot", "RightLowerLeg"}};
+                                                     {"RightFoot", "RightLowerLeg"},
+                                                     {"RightToes", "RightFoot"}};
 
 Placed PlaceOf(const std::string& bone, const Heard& heard) {
   const std::string& parent = kParents.at(bone);
@@ -225,6 +227,26 @@ TEST_P(VmcSenderTest, HandsHeadAndFeetPointWhereTheirPointsLie) {
                   p_WF = points_W.col(static_cast<int>(foot));
     const Vector3 ankle = InStudio(PlaceOf(bone, heard).p);
     EXPECT_NEAR((ankle - p_WK).norm() + (p_WF - ankle).norm(), (p_WF - p_WK).norm(), 0.1) << bone;
+  }
+}
+
+TEST_P(VmcSenderTest, ToesLieAtTheBallsOfTheFeetAndTurnWithThem) {
+  for (unsigned seed = 1; seed <= 10; ++seed) {
+    const PoseState pose = RandomPose(body_, seed);
+    const Posture posture = body_.PostureAt(pose);
+    const Heard heard = Send(pose);
+    for (const auto& [bone, ball, toe] : {std::tuple("LeftToes", Point::kBallL, Point::kToeL),
+                                          std::tuple("RightToes", Point::kBallR, Point::kToeR)}) {
+      const int carrier = body_.CarrierOf(ball);
+      const RigidTransform& X = carrier < 0 ? posture.X_WT : posture.X_W[carrier];
+      const auto at = [&](Point point) -> Vector3 {
+        return X * body_.reference_points_T().col(static_cast<int>(point));
+      };
+      const Placed toes = PlaceOf(bone, heard);
+      EXPECT_LT((InStudio(toes.p) - at(ball)).norm(), 0.1) << bone;
+      const Vector3 forward = InStudio(toes.q * Vector3::UnitZ()).normalized();
+      EXPECT_GT(forward.dot((at(toe) - at(ball)).normalized()), 0.99999) << bone;
+    }
   }
 }
 
