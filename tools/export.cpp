@@ -31,6 +31,7 @@ struct ExportArguments {
   std::filesystem::path result;
   std::string format;
   std::filesystem::path out;
+  std::optional<std::string> skeleton;
   std::optional<std::string> prefix;
   bool people = false;
 };
@@ -42,6 +43,28 @@ std::string FormatsText() {
     text += fmt::format("\n{}  {}", format.name, format.purpose);
   }
   return text;
+}
+
+std::string SkeletonsText() {
+  std::string text = "joints of bvh:";
+  for (const Skeleton* skeleton : Skeletons())
+    text += fmt::format("\n{}  {}", skeleton->name, skeleton->purpose);
+  return text;
+}
+
+std::vector<std::string> SkeletonNames() {
+  std::vector<std::string> names;
+  for (const Skeleton* skeleton : Skeletons()) names.emplace_back(skeleton->name);
+  return names;
+}
+
+const Skeleton& SkeletonOf(const ExportArguments& arguments) {
+  if (!arguments.skeleton) return MocapdSkeleton();
+  if (arguments.format != "bvh") {
+    throw SetupError("--skeleton: " + arguments.format +
+                     " has no choice of skeletons; expected --format bvh");
+  }
+  return FindSkeleton(*arguments.skeleton);
 }
 
 std::vector<std::string> FormatNames() {
@@ -111,7 +134,8 @@ void ExportOne(const ExportFormat& format, const ExportArguments& arguments) {
     throw SetupError(arguments.result.string() + ": contains no frame; expected at least one");
   }
   const ExportSubject subject{"", result};
-  const ExportScene scene{std::span(&subject, 1), result.poses, arguments.out.filename().string()};
+  const ExportScene scene{std::span(&subject, 1), result.poses, arguments.out.filename().string(),
+                          false, &SkeletonOf(arguments)};
   WriteScene(format, scene, arguments.result.string(), "", arguments.out);
   // Their names are not this command's to remove.
   for (const auto& file : StaleExports(format, arguments.out, std::span(&arguments.out, 1)))
@@ -150,7 +174,8 @@ void ExportPeople(const ExportFormat& format, const ExportArguments& arguments) 
   std::vector<std::filesystem::path> written;
   const auto write = [&](std::span<const ExportSubject> whom, bool is_of_all,
                          const std::string& whose, const std::filesystem::path& file) {
-    const ExportScene scene{whom, moments, file.filename().string(), is_of_all};
+    const ExportScene scene{whom, moments, file.filename().string(), is_of_all,
+                            &SkeletonOf(arguments)};
     WriteScene(format, scene, arguments.result.string(), whose, file);
     written.push_back(file);
   };
@@ -168,6 +193,7 @@ void ExportPeople(const ExportFormat& format, const ExportArguments& arguments) 
 void Export(const ExportArguments& arguments) {
   const ExportFormat& format = FindExportFormat(arguments.format);
   RequireSuffix(arguments.out, fmt::format(".{}", format.name));
+  SkeletonOf(arguments);
   const bool is_of_people = arguments.people || IsOfPeople(arguments.result);
   is_of_people ? ExportPeople(format, arguments) : ExportOne(format, arguments);
 }
@@ -191,6 +217,8 @@ void AddExportCommand(CLI::App& app) {
                    "as walk-person-1.bvh, or walk-anna.bvh for a named person in a log; "
                    "earlier exports to the same FILE are replaced")
       ->required();
+  command->add_option("--skeleton", arguments->skeleton, SkeletonsText())
+      ->check(OneOf(SkeletonNames()));
   command->add_option("--prefix", arguments->prefix,
                       "prefix of the LCM channel names, for a log of several daemons");
   command->add_flag("--people", arguments->people,

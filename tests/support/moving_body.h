@@ -59,7 +59,9 @@ inline PoseRow TrackedRow(const BodyModel& body, const PoseState& pose) {
   CaptureResult capture;
   capture.state = CaptureState::kTracking;
   capture.pose = pose;
-  capture.points_W = body.PointsAt(body.PostureAt(pose));
+  const Posture posture = body.PostureAt(pose);
+  capture.points_W = body.PointsAt(posture);
+  capture.further_W = body.FurtherPointsAt(posture);
   capture.residual_mm = 17.5;
   return PoseRowOf(0, 0, capture, body);
 }
@@ -75,6 +77,37 @@ inline void Append(const BodyModel& body, const PoseState& pose, Result& result)
 inline Result ResultOf(const BodyModel& body, const PoseState& pose) {
   Result result{RecordOf(body), {}};
   Append(body, pose, result);
+  return result;
+}
+
+/// Forgets what results of before did not have: the points that follow the 23, and the angles of
+/// joints.
+inline void MakeOld(Result& result) {
+  result.body.joints.clear();
+  for (PoseRow& row : result.poses) {
+    row.further_W.setConstant(std::nan(""));
+    row.joint_rad.resize(0);
+  }
+}
+
+/// The time from one strike of a foot to its next in WalkingResult.
+inline constexpr double kWalkCycle_s = 1.06;
+
+/// 25 frames a second of somebody who walks straight on with stiff legs, left foot first.
+/// @param heading_rad  0: along world x.
+inline Result WalkingResult(int frames, double heading_rad = 0,
+                            const BodyModel& body = GrownBody()) {
+  Result result{RecordOf(body), {}};
+  for (int i = 0; i < frames; ++i) {
+    const double time = 0.04 * i;
+    PoseState pose = Standing(body);
+    pose.X_WT.R = ExpRotation({0, 0, heading_rad});
+    pose.X_WT.p += pose.X_WT.R * Vector3(1200 * time, 0, 0);
+    const double forward_deg = 25 * std::sin(2 * EIGEN_PI * time / kWalkCycle_s);
+    Turn(body, "hip_l_y", -forward_deg, pose);
+    Turn(body, "hip_r_y", forward_deg, pose);
+    Append(body, pose, result);
+  }
   return result;
 }
 

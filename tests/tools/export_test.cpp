@@ -126,6 +126,23 @@ TEST_F(Export, AnEarlierExportBesideTheNewOneIsRemovedOrTold) {
   }
 }
 
+TEST_F(Export, OnlyBvhHasAChoiceOfSkeletons) {
+  WriteResult(Path("result"), SwingingResult(5));
+  const auto run = [&](const std::string& format, const std::string& skeleton) {
+    CLI::App app;
+    AddExportCommand(app);
+    app.parse("export " + Path("result") + " --format " + format + " --skeleton " + skeleton +
+              " --out " + Path("walk." + format));
+  };
+  run("bvh", "lafan1");
+  EXPECT_THAT(ReadText(Path("walk.bvh")), HasSubstr("JOINT Spine2"));
+  run("bvh", "mocapd");
+  EXPECT_THAT(ReadText(Path("walk.bvh")), ::testing::Not(HasSubstr("Spine2")));
+  EXPECT_THROW(run("bvh", "mixamo"), CLI::ValidationError);
+  EXPECT_THAT(SetupErrorOf([&] { run("glb", "lafan1"); }),
+              HasSubstr("--skeleton: glb has no choice of skeletons"));
+}
+
 TEST_F(Export, TheHelpTellsWhatEachFormatIsFor) {
   CLI::App app;
   AddExportCommand(app);

@@ -34,9 +34,9 @@ SkeletonJoint JointOf(const Capsule& capsule, const BodyTable& table) {
     case BodyPart::kThighR:
       return kRightUpLeg;
     case BodyPart::kCalfL:
-      return kLeftLeg;
+      return is_carried_by(Segment::kCalfL) ? kLeftLeg : kLeftFoot;
     case BodyPart::kCalfR:
-      return kRightLeg;
+      return is_carried_by(Segment::kCalfR) ? kRightLeg : kRightFoot;
     case BodyPart::kTorso:
       break;
   }

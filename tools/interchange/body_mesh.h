@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "core/geometry.h"
-#include "tools/interchange/skeleton_motion.h"
+#include "tools/interchange/skeletons.h"
 #include "tools/results/result.h"
 
 namespace mocap {

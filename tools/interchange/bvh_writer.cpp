@@ -2,15 +2,14 @@
 
 #include <fmt/format.h>
 
-#include <array>
+#include <iterator>
 #include <ostream>
 #include <string>
 
 #include "core/degrees.h"
 #include "tools/interchange/people_times.h"
 #include "tools/interchange/skeleton_motion.h"
-#include "tools/kinematics/euler_zxy.h"
-#include "tools/results/export_axes.h"
+#include "tools/kinematics/euler_angles.h"
 #include "tools/results/fixed_text.h"
 
 namespace mocap {
@@ -24,8 +23,7 @@ std::string Numbers(const Vector3& v, int decimals) {
 }
 
 std::string Offset(const Vector3& offset_mm) {
-  const Vector3 cm = kCmPerMm * (YUpFromWorld() * offset_mm);
-  return "OFFSET " + Numbers(cm, 4) + '\n';
+  return "OFFSET " + Numbers(kCmPerMm * offset_mm, 4) + '\n';
 }
 
 /// Lists what BVH cannot represent.
@@ -53,37 +51,40 @@ ExportRemarks RemarksOn(const SkeletonMotion& motion, double before_s) {
   return remarks;
 }
 
-void WriteHierarchy(const JointOffsets& bones, int joint, int depth, std::ostream& out) {
+std::string Channels(const Skeleton& skeleton, bool is_root) {
+  std::string text = is_root ? "CHANNELS 6 Xposition Yposition Zposition" : "CHANNELS 3";
+  for (const char axis : skeleton.rotations) text += fmt::format(" {}rotation", axis);
+  return text + '\n';
+}
+
+void WriteHierarchy(const Skeleton& skeleton, const JointOffsets& bones, int joint, int depth,
+                    std::ostream& out) {
   const std::string indent(depth, '\t');
-  const SkeletonJointInfo& info = kSkeletonJoints[joint];
+  const SkeletonJointInfo& info = skeleton.joints[joint];
   if (info.is_end) {
     out << indent << "End Site\n";
   } else {
     out << indent << (joint == 0 ? "ROOT " : "JOINT ") << info.name << '\n';
   }
   out << indent << "{\n" << indent << '\t' << Offset(bones[joint]);
-  if (!info.is_end) {
-    out << indent << '\t'
-        << (joint == 0 ? "CHANNELS 6 Xposition Yposition Zposition Zrotation Xrotation Yrotation\n"
-                       : "CHANNELS 3 Zrotation Xrotation Yrotation\n");
-  }
-  for (int child = joint + 1; child < kSkeletonJointCount; ++child) {
-    if (kSkeletonJoints[child].parent == joint) WriteHierarchy(bones, child, depth + 1, out);
+  if (!info.is_end) out << indent << '\t' << Channels(skeleton, joint == 0);
+  for (int child = joint + 1; child < std::ssize(skeleton.joints); ++child) {
+    if (skeleton.joints[child].parent == joint)
+      WriteHierarchy(skeleton, bones, child, depth + 1, out);
   }
   out << indent << "}\n";
 }
 
-void WriteMotion(const SkeletonMotion& motion, std::ostream& out) {
+void WriteMotion(const Skeleton& skeleton, const SkeletonMotion& motion, std::ostream& out) {
   out << fmt::format("MOTION\nFrames: {}\nFrame Time: {:.6f}\n", motion.frames.size(),
                      motion.period_s);
-  const Matrix3 R_YW = YUpFromWorld();
-  JointOffsets last;
-  last.fill(Vector3::Zero());
+  const auto angles_of = skeleton.rotations == "ZYX" ? AnglesZyx : AnglesZxy;
+  JointOffsets last(skeleton.joints.size(), Vector3::Zero());
   for (const SkeletonPose& pose : motion.frames) {
-    std::string line = Numbers(kCmPerMm * (R_YW * pose.offset[0]), 4);
-    for (int i = 0; i < kSkeletonJointCount; ++i) {
-      if (kSkeletonJoints[i].is_end) continue;
-      last[i] = NearestEquivalent(AnglesZxy(R_YW * pose.R[i] * R_YW.transpose()), last[i]);
+    std::string line = Numbers(kCmPerMm * pose.offset[0], 4);
+    for (std::size_t i = 0; i < last.size(); ++i) {
+      if (skeleton.joints[i].is_end) continue;
+      last[i] = NearestEquivalent(angles_of(pose.R[i]), last[i]);
       line += ' ' + Numbers(kDegreesPerRad * last[i], 5);
     }
     out << line << '\n';
@@ -94,12 +95,13 @@ void WriteMotion(const SkeletonMotion& motion, std::ostream& out) {
 
 ExportRemarks WriteBvh(const ExportScene& scene, std::ostream& out) {
   const ExportSubject& subject = scene.subjects.front();
+  const Skeleton& skeleton = *scene.skeleton;
   const bool is_alone = subject.name.empty();
   const SkeletonMotion motion = MakeSkeletonMotion(
-      is_alone ? subject.result : HoldingFirstPose(subject.result, scene.moments));
+      is_alone ? subject.result : HoldingFirstPose(subject.result, scene.moments), skeleton);
   out << "HIERARCHY\n";
-  WriteHierarchy(motion.bones, 0, 0, out);
-  WriteMotion(motion, out);
+  WriteHierarchy(skeleton, motion.bones, 0, 0, out);
+  WriteMotion(skeleton, motion, out);
   return RemarksOn(motion, is_alone ? 0 : SecondsBeforeFirstPose(subject.result, scene.moments));
 }
 

@@ -7,6 +7,7 @@
 #include <string_view>
 #include <vector>
 
+#include "tools/interchange/skeletons.h"
 #include "tools/results/result.h"
 
 namespace mocap {
@@ -22,8 +23,9 @@ struct ExportScene {
   std::span<const ExportSubject> subjects;  ///< One, or all if the format supports it.
   /// Frames and times of all people tracked together; the first is time 0.
   const std::vector<PoseRow>& moments;
-  std::string file_name;   ///< For formats that contain it.
-  bool is_of_all = false;  ///< Labels then name their subject.
+  std::string file_name;                         ///< For formats that contain it.
+  bool is_of_all = false;                        ///< Labels then name their subject.
+  const Skeleton* skeleton = &MocapdSkeleton();  ///< For BVH.
 
   /// Prefix of a subject's labels.
   std::string LabelPrefix(const ExportSubject& subject) const;

@@ -26,22 +26,19 @@ void Append(const Vector3& v, std::vector<float>& floats) {
   for (const double value : v) floats.push_back(static_cast<float>(value));
 }
 
-/// Metres, y up.
-Vector3 Metres(const Vector3& mm) { return kMetresPerMm * (YUpFromWorld() * mm); }
-
 Json JsonOf(const Vector3& v) { return {v.x(), v.y(), v.z()}; }
 
 /// With joints at rest, and the feet on the floor below the origin.
-Json Nodes(const SkeletonMotion& motion, const JointOffsets& rest_T) {
+Json Nodes(const SkeletonMotion& motion, const JointOffsets& rest) {
   Json nodes = Json::array();
+  const auto joints = MocapdSkeleton().joints;
+  const double sole_mm = rest[static_cast<int>(SkeletonJoint::kLeftToeEnd)].y();
   for (int i = 0; i < kSkeletonJointCount; ++i) {
-    const SkeletonJointInfo& info = kSkeletonJoints[i];
-    const double sole_mm = rest_T[static_cast<int>(SkeletonJoint::kLeftLegEnd)].z();
-    const Vector3 place =
-        info.parent < 0 ? Vector3(0, 0, rest_T[i].z() - sole_mm) : motion.bones[i];
-    Json node = {{"name", info.name}, {"translation", JsonOf(Metres(place))}};
+    const SkeletonJointInfo& info = joints[i];
+    const Vector3 place = info.parent < 0 ? Vector3(0, rest[i].y() - sole_mm, 0) : motion.bones[i];
+    Json node = {{"name", info.name}, {"translation", JsonOf(kMetresPerMm * place)}};
     for (int child = i + 1; child < kSkeletonJointCount; ++child) {
-      if (kSkeletonJoints[child].parent == i) node["children"].push_back(child);
+      if (joints[child].parent == i) node["children"].push_back(child);
     }
     nodes.push_back(std::move(node));
   }
@@ -53,7 +50,7 @@ Json Mesh(const BodyRecord& body, GltfBuffer& buffer) {
   std::vector<float> positions, normals;
   std::vector<std::uint8_t> joints, weights;
   for (const MeshVertex& vertex : mesh.vertices) {
-    Append(Metres(vertex.p_T), positions);
+    Append(kMetresPerMm * (YUpFromWorld() * vertex.p_T), positions);
     Append(YUpFromWorld() * vertex.normal_T, normals);
     joints.insert(joints.end(), {static_cast<std::uint8_t>(vertex.joint), 0, 0, 0});
     weights.insert(weights.end(), {255, 0, 0, 0});
@@ -72,11 +69,11 @@ Json Mesh(const BodyRecord& body, GltfBuffer& buffer) {
 }
 
 /// The mesh is bound to joints without rotation at rest.
-int InverseBindMatrices(const JointOffsets& rest_T, GltfBuffer& buffer) {
+int InverseBindMatrices(const JointOffsets& rest, GltfBuffer& buffer) {
   std::vector<float> columns;
-  for (const Vector3& place_T : rest_T) {
+  for (const Vector3& place : rest) {
     Eigen::Matrix4f inverse = Eigen::Matrix4f::Identity();
-    inverse.topRightCorner<3, 1>() = -Metres(place_T).cast<float>();
+    inverse.topRightCorner<3, 1>() = (-kMetresPerMm * place).cast<float>();
     columns.insert(columns.end(), inverse.data(), inverse.data() + inverse.size());
   }
   return buffer.AddFloats(columns, "MAT4");
@@ -93,7 +90,8 @@ class Animation {
     times_ = buffer.AddFloats(times, "SCALAR");
     for (int joint = 0; joint < kSkeletonJointCount; ++joint) {
       if (Moves(joint)) AddChannel(joint, "translation", Translations(joint), "VEC3");
-      if (!kSkeletonJoints[joint].is_end) AddChannel(joint, "rotation", Rotations(joint), "VEC4");
+      if (!MocapdSkeleton().joints[joint].is_end)
+        AddChannel(joint, "rotation", Rotations(joint), "VEC4");
     }
   }
 
@@ -109,15 +107,15 @@ class Animation {
   }
   std::vector<float> Translations(int joint) const {
     std::vector<float> values;
-    for (const SkeletonPose& pose : motion_.frames) Append(Metres(pose.offset[joint]), values);
+    for (const SkeletonPose& pose : motion_.frames)
+      Append(kMetresPerMm * pose.offset[joint], values);
     return values;
   }
   std::vector<float> Rotations(int joint) const {
-    const Matrix3 R_YW = YUpFromWorld();
     std::vector<float> values;
     Eigen::Quaterniond last = Eigen::Quaterniond::Identity();
     for (const SkeletonPose& pose : motion_.frames) {
-      Eigen::Quaterniond q(Matrix3(R_YW * pose.R[joint] * R_YW.transpose()));
+      Eigen::Quaterniond q(pose.R[joint]);
       // Of two equivalent quaternions, the one that continues from the last.
       if (q.dot(last) < 0) q.coeffs() *= -1;
       last = q;
@@ -158,7 +156,7 @@ ExportRemarks RemarksOn(const SkeletonMotion& motion) {
 ExportRemarks WriteGlb(const ExportScene& scene, std::ostream& out) {
   const ExportSubject& subject = scene.subjects.front();
   const SkeletonMotion motion = MakeSkeletonMotion(subject.result);
-  const JointOffsets rest_T = RestPlaces(subject.result.body);
+  const JointOffsets rest = RestPlaces(subject.result.body);
   const std::string name = subject.name.empty() ? "Person" : Printable(subject.name);
   GltfBuffer buffer;
   std::vector<int> joints(kSkeletonJointCount);
@@ -167,14 +165,14 @@ ExportRemarks WriteGlb(const ExportScene& scene, std::ostream& out) {
       {"asset", {{"version", "2.0"}, {"generator", std::string("mocapd ") + MOCAP_VERSION}}},
       {"scene", 0}};
   file["scenes"] = Json::array({{{"nodes", {0, kSkeletonJointCount}}}});
-  file["nodes"] = Nodes(motion, rest_T);
+  file["nodes"] = Nodes(motion, rest);
   file["nodes"].push_back({{"name", name}, {"mesh", 0}, {"skin", 0}});
   file["meshes"] = Json::array({Mesh(subject.result.body, buffer)});
   file["materials"] = Json::array({Material()});
   file["skins"] = Json::array({{{"name", name},
                                 {"skeleton", 0},
                                 {"joints", joints},
-                                {"inverseBindMatrices", InverseBindMatrices(rest_T, buffer)}}});
+                                {"inverseBindMatrices", InverseBindMatrices(rest, buffer)}}});
   file["animations"] =
       Json::array({Animation(motion, scene.moments.front().timestamp_ns, buffer).Take(name)});
   out << buffer.Glb(std::move(file));

@@ -1,111 +1,100 @@
 #include "tools/interchange/skeleton_motion.h"
 
 #include <algorithm>
-#include <string>
+#include <span>
 
 #include "core/errors.h"
-#include "tools/kinematics/rest_body.h"
+#include "tools/kinematics/posed_segments.h"
 #include "tools/results/export_axes.h"
 
 namespace mocap {
 namespace {
 
-constexpr int kHips = static_cast<int>(SkeletonJoint::kHips);
-constexpr int kSpine = static_cast<int>(SkeletonJoint::kSpine);
-constexpr int kHead = static_cast<int>(SkeletonJoint::kHead);
-
-/// Whether a joint points its bone at the next joint.
-constexpr bool IsAiming(int joint) {
-  return joint != kHips && joint != kSpine && joint != kHead && !kSkeletonJoints[joint].is_end;
-}
+/// LAFAN1's Spine and Spine1, as shares of the way from the hips to the waist's axes.
+constexpr double kLowSpineShare = 0.2, kMiddleSpineShare = 0.6;
 
 /// Poses a skeleton for one body's rows.
 class Poser {
  public:
-  explicit Poser(const BodyRecord& body) : rest_(body) {
-    const JointOffsets rest_T = RestPlaces();
-    for (int i = 0; i + 1 < kSkeletonJointCount; ++i) {
-      direction_T_[i] = (rest_T[i + 1] - rest_T[i]).normalized();
-    }
+  Poser(const BodyRecord& body, const Skeleton& skeleton)
+      : joints_(skeleton.joints), segments_(body) {
+    const SkeletonPlaces rest_T = PlacesOf(segments_.rest().places_T(), Matrix3::Identity());
+    for (const SkeletonJointInfo& joint : joints_) rest_T_.push_back(At(rest_T, joint.place));
+    for (std::size_t i = 0; i < joints_.size(); ++i) R_TJoint_.push_back(RestAxes(i));
   }
 
-  JointOffsets RestPlaces() const {
-    PoseRow row;
-    row.points_W = rest_.places_T().leftCols<kPointCount>();
-    JointOffsets places_T = PlacesOf(row);
-    places_T[kHead + 1].z() += rest_.sizes().head / 2;
-    return places_T;
-  }
+  const JointOffsets& rest_T() const { return rest_T_; }
 
   SkeletonPose PoseOf(const PoseRow& row) const {
-    const JointOffsets places_W = PlacesOf(row);
+    const PosedSegments posed = segments_.Pose(row);
+    const SkeletonPlaces places_W = PlacesOf(posed.places_W, posed.RotationOf(Segment::kHead));
+    const auto R_W = [&](std::size_t i) -> Matrix3 {
+      return posed.RotationOf(joints_[i].segment) * R_TJoint_[i];
+    };
     SkeletonPose pose;
     pose.time_ns = row.timestamp_ns;
-    std::array<Matrix3, kSkeletonJointCount> R_W;
-    for (int i = 0; i < kSkeletonJointCount; ++i) {
-      const int parent = kSkeletonJoints[i].parent;
-      if (parent < 0) {
-        pose.offset[i] = places_W[i];
-        pose.R[i] = R_W[i] = rest_.PelvisRotation(row);
+    for (std::size_t i = 0; i < joints_.size(); ++i) {
+      const SkeletonJointInfo& joint = joints_[i];
+      const Vector3 place_W = At(places_W, joint.place);
+      if (joint.parent < 0) {
+        pose.offset.push_back(YUpFromWorld() * place_W);
+        pose.R.emplace_back(YUpFromWorld() * R_W(i));
         continue;
       }
-      pose.offset[i] = R_W[parent].transpose() * (places_W[i] - places_W[parent]);
-      pose.R[i] = Turn(i, row, R_W[parent], places_W);
-      R_W[i] = R_W[parent] * pose.R[i];
+      const auto parent = static_cast<std::size_t>(joint.parent);
+      const Matrix3 R_ParentW = R_W(parent).transpose();
+      pose.offset.push_back(R_ParentW * (place_W - At(places_W, joints_[parent].place)));
+      pose.R.push_back(joint.is_end ? Matrix3::Identity() : Matrix3(R_ParentW * R_W(i)));
     }
-    // The 23 points have no top of the head.
-    pose.offset[kHead + 1] = Vector3(0, 0, rest_.sizes().head / 2);
     return pose;
   }
 
  private:
-  Matrix3 Turn(int joint, const PoseRow& row, const Matrix3& R_WParent,
-               const JointOffsets& places_W) const {
-    if (joint == kSpine) return R_WParent.transpose() * TorsoRotation(row);
-    if (!IsAiming(joint)) return Matrix3::Identity();
-    const Vector3 direction = R_WParent.transpose() * (places_W[joint + 1] - places_W[joint]);
-    // The shortest rotation: points do not show a rotation about the bone itself.
-    return RotationBetween(direction_T_[joint], direction).toRotationMatrix();
+  using SkeletonPlaces = Eigen::Matrix<double, 3, kSkeletonPlaceCount>;
+
+  static Vector3 At(const SkeletonPlaces& places, Point place) {
+    return places.col(static_cast<int>(place));
   }
 
-  JointOffsets PlacesOf(const PoseRow& row) const {
-    const Matrix3 R_WT = TorsoRotation(row);
-    const auto at = [&](Point point) { return At(row, point); };
-    const auto in_torso = [&](Point point) -> Vector3 {
-      return at(Point::kTorso) + R_WT * rest_.places_T().col(static_cast<int>(point));
-    };
-    return {HipsMiddle(row),
-            at(Point::kTorso),
-            at(Point::kNeck),
-            at(Point::kHead),
-            at(Point::kHead),
-            in_torso(Point::kClavicleL),
-            at(Point::kShoulderL),
-            at(Point::kElbowL),
-            rest_.Wrist(row, Point::kElbowL, Point::kLowerArmL),
-            at(Point::kFingertipsL),
-            in_torso(Point::kClavicleR),
-            at(Point::kShoulderR),
-            at(Point::kElbowR),
-            rest_.Wrist(row, Point::kElbowR, Point::kLowerArmR),
-            at(Point::kFingertipsR),
-            at(Point::kHipL),
-            at(Point::kKneeL),
-            at(Point::kFootL),
-            at(Point::kHipR),
-            at(Point::kKneeR),
-            at(Point::kFootR)};
+  SkeletonPlaces PlacesOf(const BodyPlaces& points, const Matrix3& R_head) const {
+    SkeletonPlaces places;
+    places.leftCols<kPlaceCount>() = points;
+    const auto at = [&](Point place) { return places.col(static_cast<int>(place)); };
+    at(kHipsMiddle) = (at(Point::kHipL) + at(Point::kHipR)) / 2;
+    const Vector3 spine = at(Point::kTorso) - at(kHipsMiddle);
+    at(kLowSpine) = at(kHipsMiddle) + kLowSpineShare * spine;
+    at(kMiddleSpine) = at(kHipsMiddle) + kMiddleSpineShare * spine;
+    at(kHeadTop) = at(Point::kHead) + R_head * Vector3(0, 0, segments_.rest().sizes().head / 2);
+    return places;
   }
 
-  RestBody rest_;
-  JointOffsets direction_T_;  ///< From each joint to the next one in the reference configuration.
+  /// A joint's axes in the reference configuration.
+  Matrix3 RestAxes(std::size_t joint) const {
+    const BoneAxes axes = joints_[joint].axes;
+    if (axes == BoneAxes::kStudio) return YUpFromWorld().transpose();
+    const Vector3 x = joints_[joint].parent < 0
+                          ? Vector3(Vector3::UnitZ())
+                          : Vector3((rest_T_[joint + 1] - rest_T_[joint]).normalized());
+    const Vector3 about_y = axes == BoneAxes::kUpward     ? Vector3(Vector3::UnitZ())
+                            : axes == BoneAxes::kBackward ? Vector3(-Vector3::UnitX())
+                                                          : Vector3(Vector3::UnitX());
+    const Vector3 z = x.cross(about_y).normalized();
+    Matrix3 R;
+    R << x, z.cross(x), z;
+    return R;
+  }
+
+  std::span<const SkeletonJointInfo> joints_;
+  SegmentPoser segments_;
+  JointOffsets rest_T_;
+  std::vector<Matrix3> R_TJoint_;  ///< From each joint to the torso, at rest.
 };
 
-void MeasureWorst(SkeletonMotion& motion) {
+void MeasureWorst(const Skeleton& skeleton, SkeletonMotion& motion) {
   for (const SkeletonPose& pose : motion.frames) {
-    const JointOffsets own = PlacesAt(pose, pose.offset);
-    const JointOffsets constant = PlacesAt(pose, motion.bones);
-    for (int i = 0; i < kSkeletonJointCount; ++i) {
+    const JointOffsets own = PlacesAt(skeleton, pose, pose.offset);
+    const JointOffsets constant = PlacesAt(skeleton, pose, motion.bones);
+    for (std::size_t i = 0; i < own.size(); ++i) {
       motion.worst_mm = std::max(motion.worst_mm, (own[i] - constant[i]).norm());
     }
   }
@@ -125,24 +114,30 @@ void Hold(std::int64_t periods, const PoseRow& row, SkeletonMotion& motion) {
 
 }  // namespace
 
-JointOffsets PlacesAt(const SkeletonPose& pose, const JointOffsets& offset) {
-  JointOffsets places_W;
-  std::array<Matrix3, kSkeletonJointCount> R_W;
-  for (int i = 0; i < kSkeletonJointCount; ++i) {
-    const int parent = kSkeletonJoints[i].parent;
-    places_W[i] = parent < 0 ? pose.offset[i] : places_W[parent] + R_W[parent] * offset[i];
-    R_W[i] = parent < 0 ? pose.R[i] : Matrix3(R_W[parent] * pose.R[i]);
+JointOffsets PlacesAt(const Skeleton& skeleton, const SkeletonPose& pose,
+                      const JointOffsets& offset) {
+  JointOffsets places(skeleton.joints.size());
+  std::vector<Matrix3> R(places.size());
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    const int parent = skeleton.joints[i].parent;
+    places[i] = parent < 0 ? pose.offset[i] : places[parent] + R[parent] * offset[i];
+    R[i] = parent < 0 ? pose.R[i] : Matrix3(R[parent] * pose.R[i]);
   }
-  return places_W;
+  return places;
 }
 
-JointOffsets RestPlaces(const BodyRecord& body) { return Poser(body).RestPlaces(); }
+JointOffsets RestPlaces(const BodyRecord& body) {
+  const Poser poser(body, MocapdSkeleton());
+  JointOffsets places;
+  for (const Vector3& place_T : poser.rest_T()) places.push_back(YUpFromWorld() * place_T);
+  return places;
+}
 
-SkeletonMotion MakeSkeletonMotion(const Result& result) {
+SkeletonMotion MakeSkeletonMotion(const Result& result, const Skeleton& skeleton) {
   SkeletonMotion motion;
   const EvenClock clock = FitClock(result.poses);
   motion.period_s = clock.period_s;
-  const Poser poser(result.body);
+  const Poser poser(result.body, skeleton);
   motion.frames.reserve(result.poses.size());
   for (std::size_t i = 0; i < result.poses.size(); ++i) {
     const PoseRow& row = result.poses[i];
@@ -159,8 +154,8 @@ SkeletonMotion MakeSkeletonMotion(const Result& result) {
   if (motion.frames.empty()) {
     throw SetupError("no frame of the result is tracked; expected at least one");
   }
-  motion.bones[kHips] = Vector3::Zero();
-  MeasureWorst(motion);
+  motion.bones.front().setZero();
+  MeasureWorst(skeleton, motion);
   return motion;
 }
 

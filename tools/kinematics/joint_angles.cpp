@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "core/degrees.h"
-#include "tools/kinematics/euler_zxy.h"
+#include "tools/kinematics/euler_angles.h"
 #include "tools/kinematics/rest_body.h"
 #include "tools/results/export_axes.h"
 

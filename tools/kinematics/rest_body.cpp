@@ -39,20 +39,10 @@ BodySizes SizesOf(const BodyRecord& body) {
 RestBody::RestBody(const BodyRecord& body) : table_(TableOf(body)), sizes_(SizesOf(body)) {
   places_T_ = ReferencePoints(sizes_, table_.placement);
   R_rest_ = HipAxes(places_T_.leftCols<kPointCount>());
-  const auto from_elbow = [&](Point point) {
-    return (places_T_.col(static_cast<int>(point)) -
-            places_T_.col(static_cast<int>(Point::kElbowL)))
-        .norm();
-  };
-  wrist_per_middle_ = from_elbow(Point::kWristL) / from_elbow(Point::kLowerArmL);
 }
 
 Matrix3 RestBody::PelvisRotation(const PoseRow& row) const {
   return HipAxes(row.points_W) * R_rest_.transpose();
-}
-
-Vector3 RestBody::Wrist(const PoseRow& row, Point elbow, Point lower_arm) const {
-  return At(row, elbow) + wrist_per_middle_ * (At(row, lower_arm) - At(row, elbow));
 }
 
 }  // namespace mocap

@@ -32,15 +32,12 @@ class RestBody {
   const BodyPlaces& places_T() const { return places_T_; }
   /// The pelvis axes in the world: the torso's unless the waist is turned.
   Matrix3 PelvisRotation(const PoseRow& row) const;
-  /// The wrist, on the line from the elbow to the middle of the lower arm.
-  Vector3 Wrist(const PoseRow& row, Point elbow, Point lower_arm) const;
 
  private:
   BodyTable table_;
   BodySizes sizes_;
   BodyPlaces places_T_;
   Matrix3 R_rest_;  ///< Axes of hips and spine in the reference configuration.
-  double wrist_per_middle_;
 };
 
 }  // namespace mocap

@@ -1,154 +1,152 @@
-#include "tools/interchange/bvh_writer.h"
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <map>
-#include <numbers>
-#include <sstream>
 #include <string>
+#include <utility>
 
-#include "core/errors.h"
+#include "tests/support/exported_bvh.h"
 #include "tests/support/moving_body.h"
-#include "tools/interchange/skeleton_motion.h"
+#include "tools/results/export_axes.h"
 
 namespace mocap {
 namespace {
 
 using testing::Append;
+using testing::Cm;
+using testing::ExpectHandsAndFeet;
+using testing::ExpectPlaces;
 using testing::GrownBody;
+using testing::JointsAt;
+using testing::kBvhDegree;
+using testing::MakeOld;
+using testing::PlacesAt;
+using testing::ReadBvh;
 using testing::ResultOf;
 using testing::RightArmRaised;
 using testing::Standing;
 using testing::Swinging;
 using testing::SwingingResult;
 using testing::TrackedRow;
+using testing::Turn;
+using testing::WrittenBvh;
 
-constexpr double kBvhDegree = std::numbers::pi / 180;
-
-// A reader of BVH that knows nothing of the writer: what an animation program would do.
-struct ReadNode {
-  std::string name;
-  int parent;
-  Eigen::Vector3d offset;
-  std::vector<std::string> channels;
-};
-
-struct ReadBvh {
-  std::vector<ReadNode> nodes;
-  std::vector<std::vector<double>> frames;
-  double frame_time = 0;
-};
-
-ReadBvh Parse(const std::string& text) {
-  std::istringstream in(text);
-  ReadBvh bvh;
-  std::vector<int> open;
-  std::string word, name;
-  while (in >> word && word != "MOTION") {
-    if (word == "ROOT" || word == "JOINT") in >> name;
-    if (word == "End") {
-      in >> word;
-      name = bvh.nodes.back().name + "_end";
-    }
-    if (word == "{") {
-      bvh.nodes.push_back({name, open.empty() ? -1 : open.back(), {}, {}});
-      open.push_back(static_cast<int>(bvh.nodes.size()) - 1);
-    }
-    if (word == "}") open.pop_back();
-    if (word == "OFFSET") {
-      for (double& value : bvh.nodes.back().offset) in >> value;
-    }
-    if (word == "CHANNELS") {
-      int count = 0;
-      in >> count;
-      for (; count > 0; --count) in >> bvh.nodes.back().channels.emplace_back();
-    }
-  }
-  std::size_t frame_count = 0, width = 0;
-  in >> word >> frame_count >> word >> word >> bvh.frame_time;
-  for (const ReadNode& node : bvh.nodes) width += node.channels.size();
-  bvh.frames.assign(frame_count, std::vector<double>(width));
-  for (std::vector<double>& frame : bvh.frames) {
-    for (double& value : frame) EXPECT_TRUE(in >> value);
-  }
-  EXPECT_FALSE(in >> word) << "more numbers than channels";
-  return bvh;
+/// The segment that turns with each joint.
+const std::map<std::string, Segment>& Segments() {
+  static const std::map<std::string, Segment> segments = {{"Hips", Segment::kPelvis},
+                                                          {"Spine", Segment::kTorso},
+                                                          {"Neck", Segment::kHead},
+                                                          {"Head", Segment::kHead},
+                                                          {"LeftShoulder", Segment::kShoulderL},
+                                                          {"RightShoulder", Segment::kShoulderR},
+                                                          {"LeftArm", Segment::kUpperArmL},
+                                                          {"RightArm", Segment::kUpperArmR},
+                                                          {"LeftForeArm", Segment::kLowerArmL},
+                                                          {"RightForeArm", Segment::kLowerArmR},
+                                                          {"LeftHand", Segment::kHandL},
+                                                          {"RightHand", Segment::kHandR},
+                                                          {"LeftUpLeg", Segment::kThighL},
+                                                          {"RightUpLeg", Segment::kThighR},
+                                                          {"LeftLeg", Segment::kCalfL},
+                                                          {"RightLeg", Segment::kCalfR},
+                                                          {"LeftFoot", Segment::kFootL},
+                                                          {"RightFoot", Segment::kFootR},
+                                                          {"LeftToe", Segment::kFootL},
+                                                          {"RightToe", Segment::kFootR}};
+  return segments;
 }
 
-/// Places of all joints and end sites [cm].
-std::map<std::string, Eigen::Vector3d> PlacesAt(const ReadBvh& bvh, std::size_t frame) {
-  std::vector<Eigen::Isometry3d> world;
-  std::map<std::string, Eigen::Vector3d> places;
-  auto value = bvh.frames[frame].begin();
-  for (const ReadNode& node : bvh.nodes) {
-    Eigen::Isometry3d X = node.parent < 0 ? Eigen::Isometry3d::Identity() : world[node.parent];
-    X.translate(node.offset);
-    for (const std::string& channel : node.channels) {
-      const Eigen::Vector3d axis(channel[0] == 'X', channel[0] == 'Y', channel[0] == 'Z');
-      if (channel.ends_with("position")) X.translate(*value * axis);
-      if (channel.ends_with("rotation")) X.rotate(Eigen::AngleAxisd(*value * kBvhDegree, axis));
-      ++value;
-    }
-    world.push_back(X);
-    places[node.name] = X.translation();
-  }
-  return places;
-}
-
-ReadBvh WriteAndParse(const Result& result) {
-  const ExportSubject subject{"", result};
-  std::ostringstream text;
-  WriteBvh({std::span(&subject, 1), result.poses, "walk.bvh"}, text);
-  return Parse(text.str());
-}
-
-/// What a joint or end is at: y up; world x is z, and world y, the left of who faces x, is x.
-const std::map<std::string, Point>& Points() {
-  static const std::map<std::string, Point> points = {{"Spine", Point::kTorso},
-                                                      {"Neck", Point::kNeck},
-                                                      {"Head", Point::kHead},
-                                                      {"LeftArm", Point::kShoulderL},
-                                                      {"RightArm", Point::kShoulderR},
-                                                      {"LeftForeArm", Point::kElbowL},
-                                                      {"RightForeArm", Point::kElbowR},
-                                                      {"LeftHand_end", Point::kFingertipsL},
-                                                      {"RightHand_end", Point::kFingertipsR},
-                                                      {"LeftUpLeg", Point::kHipL},
-                                                      {"RightUpLeg", Point::kHipR},
-                                                      {"LeftLeg", Point::kKneeL},
-                                                      {"RightLeg", Point::kKneeR},
-                                                      {"LeftLeg_end", Point::kFootL},
-                                                      {"RightLeg_end", Point::kFootR}};
-  return points;
-}
-
-void ExpectPlaces(const std::map<std::string, Eigen::Vector3d>& places, const PoseRow& row) {
-  for (const auto& [name, point] : Points()) {
-    ASSERT_TRUE(places.contains(name)) << name;
-    const Vector3 p_W = row.points_W.col(static_cast<int>(point));
-    const Eigen::Vector3d cm = Eigen::Vector3d(p_W.y(), p_W.z(), p_W.x()) / 10;
-    EXPECT_LT((places.at(name) - cm).norm(), 0.01)
-        << name << " is at " << places.at(name).transpose() << " cm, wanted " << cm.transpose();
-  }
+/// A segment's axes: x to the person's left, y up, z forward of who stands in a T-pose.
+Matrix3 AxesOf(const BodyModel& body, const PoseState& pose, Segment segment) {
+  const Posture posture = body.PostureAt(pose);
+  const int carrier = body.table().carrier[static_cast<int>(segment)];
+  const Matrix3 R_W = carrier < 0 ? posture.X_WT.R : posture.X_W[carrier].R;
+  return YUpFromWorld() * R_W * YUpFromWorld().transpose();
 }
 
 TEST(BvhWriter, RaisesTheRightArmOnTheRightOfAPersonWhoFacesWorldX) {
   const BodyModel body = GrownBody();
   const Result result = ResultOf(body, RightArmRaised(body));
-  const auto places = PlacesAt(WriteAndParse(result), 0);
+  const auto places = PlacesAt(WrittenBvh(result), 0);
   ExpectPlaces(places, result.poses[0]);
   EXPECT_GT(places.at("RightHand_end").y(), places.at("Head_end").y() + 20);
   EXPECT_LT(places.at("LeftHand_end").y(), places.at("Hips").y());
   EXPECT_LT(places.at("RightHand_end").x(), 40) << "the middle of the body is at 50 cm";
   EXPECT_GT(places.at("LeftHand_end").x(), 60);
-  EXPECT_LT(places.at("LeftLeg_end").z(), places.at("LeftLeg").z() - 20) << "the bent knee";
+  EXPECT_LT(places.at("LeftFoot").z(), places.at("LeftLeg").z() - 20) << "the bent knee";
+  EXPECT_LT(places.at("LeftToe").y(), places.at("LeftFoot").y() - 10) << "its foot points down";
+  EXPECT_GT(places.at("RightToe").z(), places.at("RightFoot").z() + 10) << "the other one, forward";
+}
+
+TEST(BvhWriter, FeetAndHeadTurnToTheirSide) {
+  const BodyModel body = GrownBody();
+  PoseState pose = Standing(body);
+  Turn(body, "hip_l_z", 40, pose);
+  Turn(body, "ankle_r_y", 30, pose);
+  Turn(body, "neck_x", 20, pose);
+  const auto places = PlacesAt(WrittenBvh(ResultOf(body, pose)), 0);
+  EXPECT_GT(places.at("LeftToe_end").x(), places.at("LeftFoot").x() + 8) << "turned out";
+  EXPECT_NEAR(places.at("RightToe_end").x(), places.at("RightFoot").x(), 0.01);
+  EXPECT_LT(places.at("RightToe_end").y(), places.at("LeftToe_end").y() - 8) << "toes down";
+  EXPECT_LT(places.at("Head_end").x(), places.at("Neck").x() - 5) << "to the right shoulder";
+}
+
+TEST(BvhWriter, JointsTurnAsTheSegmentsDo) {
+  for (const char* table : {"full", "mikic2003"}) {
+    const BodyModel body = GrownBody(table);
+    const ReadBvh bvh = WrittenBvh(SwingingResult(60, body));
+    for (int i = 0; i < 60; ++i) {
+      const auto joints = JointsAt(bvh, i);
+      for (const auto& [name, segment] : Segments()) {
+        const Matrix3 wanted = AxesOf(body, Swinging(body, 0.04 * i), segment);
+        EXPECT_TRUE(joints.at(name).linear().isApprox(wanted, 1e-5)) << name << ' ' << i;
+      }
+    }
+  }
+}
+
+TEST(BvhWriter, ALimbThatTurnsAboutItselfTurnsItsJoint) {
+  const BodyModel body = GrownBody();
+  for (const auto& [turn, joint] : {std::pair("shoulder_l_y", "LeftArm Yrotation"),
+                                    std::pair("hip_r_z", "RightUpLeg Yrotation")}) {
+    double last = 0;
+    Result result{RecordOf(body), {}};
+    for (int degrees = 0; degrees <= 40; ++degrees) {
+      PoseState pose = Standing(body);
+      Turn(body, turn, degrees, pose);
+      Append(body, pose, result);
+    }
+    const ReadBvh bvh = WrittenBvh(result);
+    const std::string name = std::string(joint).substr(0, std::string(joint).find(' '));
+    for (std::size_t i = 1; i < bvh.frames.size(); ++i) {
+      const Matrix3 R = JointsAt(bvh, i).at(name).linear();
+      const double turned = Eigen::AngleAxisd(R).angle() / kBvhDegree;
+      EXPECT_NEAR(turned - last, 1, 1e-3) << name << ' ' << i;
+      last = turned;
+    }
+  }
+}
+
+TEST(BvhWriter, BonesOfOldResultsPointAtTheirPoints) {
+  for (const char* table : {"full", "mikic2003"}) {
+    Result result = SwingingResult(60, GrownBody(table));
+    MakeOld(result);
+    const ReadBvh bvh = WrittenBvh(result);
+    for (std::size_t i = 0; i < result.poses.size(); ++i) {
+      const auto places = PlacesAt(bvh, i);
+      ExpectPlaces(places, result.poses[i]);
+      const Eigen::Vector3d sole =
+          Cm(result.poses[i].points_W.col(static_cast<int>(Point::kFootL)));
+      const Eigen::Vector3d shin = (places.at("LeftLeg") - sole).normalized();
+      EXPECT_NEAR(shin.dot(places.at("LeftToe_end") - sole), 0, 0.01) << "fixed to the shin";
+    }
+  }
 }
 
 TEST(BvhWriter, RestsWithTheArmsOutAndFacesZ) {
   const BodyModel body = GrownBody();
-  ReadBvh bvh = WriteAndParse(ResultOf(body, RightArmRaised(body)));
+  ReadBvh bvh = WrittenBvh(ResultOf(body, RightArmRaised(body)));
   std::ranges::fill(bvh.frames[0], 0);
   PoseRow rest = TrackedRow(body, Standing(body));
   rest.points_W.colwise() -= (rest.points_W.col(static_cast<int>(Point::kHipL)) +
@@ -159,16 +157,19 @@ TEST(BvhWriter, RestsWithTheArmsOutAndFacesZ) {
 
 TEST(BvhWriter, KeepsEveryJointInPlaceThoughWaistCollarBonesAndWristsTurn) {
   for (const char* table : {"full", "mikic2003"}) {
-    const Result result = SwingingResult(60, GrownBody(table));
-    const ReadBvh bvh = WriteAndParse(result);
+    const BodyModel body = GrownBody(table);
+    const Result result = SwingingResult(60, body);
+    const ReadBvh bvh = WrittenBvh(result);
     for (std::size_t i = 0; i < result.poses.size(); ++i) {
-      ExpectPlaces(PlacesAt(bvh, i), result.poses[i]);
+      const auto places = PlacesAt(bvh, i);
+      ExpectPlaces(places, result.poses[i]);
+      ExpectHandsAndFeet(places, body, Swinging(body, 0.04 * static_cast<double>(i)));
     }
   }
 }
 
 TEST(BvhWriter, HasNoJumpsInItsCurves) {
-  const ReadBvh bvh = WriteAndParse(SwingingResult(60));
+  const ReadBvh bvh = WrittenBvh(SwingingResult(60));
   for (std::size_t i = 1; i < bvh.frames.size(); ++i) {
     for (std::size_t c = 3; c < bvh.frames[i].size(); ++c) {
       EXPECT_LT(std::abs(bvh.frames[i][c] - bvh.frames[i - 1][c]), 170) << "channel " << c;
@@ -177,66 +178,7 @@ TEST(BvhWriter, HasNoJumpsInItsCurves) {
 }
 
 TEST(BvhWriter, GivesTheFrameTime) {
-  EXPECT_NEAR(WriteAndParse(SwingingResult(5)).frame_time, 0.04, 1e-6);
-}
-
-TEST(SkeletonMotion, SkipsWhatComesBeforeTrackingAndHoldsThePoseInGaps) {
-  Result result = SwingingResult(6);
-  result.poses[0].state = CaptureState::kAcquiring;
-  result.poses[3].state = CaptureState::kLost;
-  const SkeletonMotion motion = MakeSkeletonMotion(result);
-  EXPECT_EQ(motion.skipped_frames, 1);
-  EXPECT_EQ(motion.held_frames, 1);
-  ASSERT_EQ(motion.frames.size(), 5u);
-  EXPECT_EQ(motion.frames[2].offset[0], motion.frames[1].offset[0]);
-  EXPECT_NE(motion.frames[3].offset[0], motion.frames[1].offset[0]);
-  for (int i = 0; i < 5; ++i) EXPECT_EQ(motion.frames[i].time_ns, result.poses[i + 1].timestamp_ns);
-}
-
-TEST(SkeletonMotion, KeepsTimeThoughFramesAreMissing) {
-  Result result = SwingingResult(20);
-  // Jitter of a few milliseconds, and three frames gone.
-  for (std::size_t i = 0; i < 20; ++i) result.poses[i].timestamp_ns += i % 3 * 2'000'000;
-  result.poses.erase(result.poses.begin() + 8, result.poses.begin() + 11);
-  const SkeletonMotion motion = MakeSkeletonMotion(result);
-  EXPECT_EQ(motion.held_frames, 3);
-  ASSERT_EQ(motion.frames.size(), 20u);
-  EXPECT_NEAR(motion.period_s, 0.04, 0.0002);
-  EXPECT_EQ(motion.frames[10].offset[0], motion.frames[7].offset[0]);
-  EXPECT_NE(motion.frames[11].offset[0], motion.frames[7].offset[0]);
-  for (int i = 1; i < 20; ++i) EXPECT_GT(motion.frames[i].time_ns, motion.frames[i - 1].time_ns);
-}
-
-TEST(SkeletonMotion, SaysHowFarJointsAreOffWhenBonesChange) {
-  Result result = SwingingResult(5);
-  EXPECT_LT(MakeSkeletonMotion(result).worst_mm, 1e-6);
-  const int knee = static_cast<int>(Point::kKneeL), foot = static_cast<int>(Point::kFootL);
-  Vector3 calf = result.poses[2].points_W.col(foot) - result.poses[2].points_W.col(knee);
-  result.poses[2].points_W.col(foot) += 20 * calf.normalized();
-  EXPECT_NEAR(MakeSkeletonMotion(result).worst_mm, 20, 1e-6);
-}
-
-TEST(SkeletonMotion, HasTheBonesThatTheSizesSettledOn) {
-  Result result = SwingingResult(3, BodyModel(LoadBodyTable("full"), AverageSizes(1700)));
-  const BodyModel settled = GrownBody();
-  result.body = RecordOf(settled);
-  Append(settled, Swinging(settled, 1), result);
-  const SkeletonMotion motion = MakeSkeletonMotion(result);
-  EXPECT_NEAR(motion.bones[static_cast<int>(SkeletonJoint::kLeftLeg)].norm(), settled.sizes().thigh,
-              1e-6);
-  EXPECT_GT(motion.worst_mm, 10);
-}
-
-TEST(SkeletonMotion, RefusesAPauseThatWouldFillTheMemory) {
-  Result result = SwingingResult(9);
-  result.poses[8].timestamp_ns = std::int64_t{1} << 60;
-  EXPECT_THROW(MakeSkeletonMotion(result), SetupError);
-}
-
-TEST(SkeletonMotion, RefusesAResultWithoutATrackedFrame) {
-  Result result = SwingingResult(2);
-  for (PoseRow& row : result.poses) row.state = CaptureState::kSearching;
-  EXPECT_THROW(MakeSkeletonMotion(result), SetupError);
+  EXPECT_NEAR(WrittenBvh(SwingingResult(5)).frame_time, 0.04, 1e-6);
 }
 
 }  // namespace

@@ -132,10 +132,20 @@ void ExpectNodes(const std::map<std::string, Vector3>& places, const PoseRow& ro
                                                   {"RightUpLeg", Point::kHipR},
                                                   {"LeftLeg", Point::kKneeL},
                                                   {"RightLeg", Point::kKneeR},
-                                                  {"LeftLegEnd", Point::kFootL},
-                                                  {"RightLegEnd", Point::kFootR}};
+                                                  {"LeftShoulder", Point::kClavicleL},
+                                                  {"RightShoulder", Point::kClavicleR},
+                                                  {"LeftHand", Point::kWristL},
+                                                  {"RightHand", Point::kWristR},
+                                                  {"LeftFoot", Point::kAnkleL},
+                                                  {"RightFoot", Point::kAnkleR},
+                                                  {"LeftToe", Point::kBallL},
+                                                  {"RightToe", Point::kBallR},
+                                                  {"LeftToeEnd", Point::kToeL},
+                                                  {"RightToeEnd", Point::kToeR}};
+  BodyPlaces points_W;
+  points_W << row.points_W, row.further_W;
   for (const auto& [name, point] : points) {
-    const Vector3 m = 1e-3 * (YUpFromWorld() * row.points_W.col(static_cast<int>(point)));
+    const Vector3 m = 1e-3 * (YUpFromWorld() * points_W.col(static_cast<int>(point)));
     EXPECT_LT((places.at(name) - m).norm(), 1e-4) << name;
   }
 }
@@ -154,7 +164,33 @@ TEST(GlbWriter, RaisesTheRightArmOnTheRightOfAPersonWhoFacesZ) {
   const auto places = WriteAndRead(ResultOf(body, RightArmRaised(body))).PlacesAt(0);
   EXPECT_GT(places.at("RightHandEnd").y(), places.at("Head").y() + 0.2);
   EXPECT_LT(places.at("RightHandEnd").x(), places.at("Spine").x());
-  EXPECT_LT(places.at("LeftLegEnd").z(), places.at("LeftLeg").z() - 0.2) << "the bent knee";
+  EXPECT_LT(places.at("LeftFoot").z(), places.at("LeftLeg").z() - 0.2) << "the bent knee";
+  EXPECT_GT(places.at("RightToeEnd").z(), places.at("RightFoot").z() + 0.15);
+}
+
+TEST(GlbWriter, TheFootsFleshTurnsWithTheFoot) {
+  const BodyModel body = GrownBody();
+  PoseState pose = Standing(body);
+  testing::Turn(body, "ankle_l_y", 30, pose);
+  std::vector<PosedCapsule> flesh;
+  body.PoseShape(body.PostureAt(pose), flesh);
+  const ReadGlb glb = WriteAndRead(ResultOf(body, pose));
+  const auto world = glb.NodesAt(0);
+  const auto rest = WriteAndRead(ResultOf(body, Standing(body))).PlacesAt(0);
+  const Vector3 torso = 1e-3 * (YUpFromWorld() * Standing(body).X_WT.p);
+  int feet = 0;
+  for (const MeshVertex& vertex : MakeBodyMesh(RecordOf(body)).vertices) {
+    if (vertex.joint != SkeletonJoint::kLeftFoot) continue;
+    ++feet;
+    const Vector3 at_rest = torso + 1e-3 * (YUpFromWorld() * vertex.p_T) - rest.at("LeftFoot");
+    const Vector3 m = world[static_cast<std::size_t>(SkeletonJoint::kLeftFoot)] * at_rest;
+    const Vector3 p_W = 1e3 * (YUpFromWorld().transpose() * m);
+    double outside_mm = 1e9;
+    for (const PosedCapsule& capsule : flesh)
+      outside_mm = std::min(outside_mm, std::abs(capsule.DistanceTo(p_W).outside_mm));
+    EXPECT_LT(outside_mm, 10);
+  }
+  EXPECT_GT(feet, 100);
 }
 
 TEST(GlbWriter, JointsFollowBonesThatChangeUntilSizesHaveSettled) {
@@ -163,7 +199,6 @@ TEST(GlbWriter, JointsFollowBonesThatChangeUntilSizesHaveSettled) {
   result.body = RecordOf(settled);
   Append(settled, Swinging(settled, 1), result);
   const ReadGlb glb = WriteAndRead(result);
-  // The collar bones' inner ends, which are no points, are those of the settled sizes.
   for (std::size_t i = 0; i < 4; ++i) ExpectNodes(glb.PlacesAt(i), result.poses[i]);
 }
 

@@ -1,4 +1,4 @@
-#include "tools/kinematics/euler_zxy.h"
+#include "tools/kinematics/euler_angles.h"
 
 #include <algorithm>
 #include <cmath>
@@ -9,13 +9,27 @@ namespace {
 
 constexpr double kPi = std::numbers::pi;
 
+/// At gimbal lock only the sum or difference of the outer angles counts.
+bool IsLocked(double sine) { return std::abs(sine) > 1 - 1e-12; }
+
 }  // namespace
 
 Vector3 AnglesZxy(const Matrix3& R) {
   const double x = std::asin(std::clamp(R(2, 1), -1.0, 1.0));
-  // At gimbal lock only the sum or difference of z and y counts.
-  if (std::abs(R(2, 1)) > 1 - 1e-12) return {std::atan2(R(1, 0), R(0, 0)), x, 0};
+  if (IsLocked(R(2, 1))) return {std::atan2(R(1, 0), R(0, 0)), x, 0};
   return {std::atan2(-R(0, 1), R(1, 1)), x, std::atan2(-R(2, 0), R(2, 2))};
+}
+
+Matrix3 RotationZxy(const Vector3& zxy) {
+  return (Eigen::AngleAxisd(zxy[0], Vector3::UnitZ()) *
+          Eigen::AngleAxisd(zxy[1], Vector3::UnitX()) * Eigen::AngleAxisd(zxy[2], Vector3::UnitY()))
+      .toRotationMatrix();
+}
+
+Vector3 AnglesZyx(const Matrix3& R) {
+  const double y = -std::asin(std::clamp(R(2, 0), -1.0, 1.0));
+  if (IsLocked(R(2, 0))) return {std::atan2(-R(0, 1), R(1, 1)), y, 0};
+  return {std::atan2(R(1, 0), R(0, 0)), y, std::atan2(R(2, 1), R(2, 2))};
 }
 
 Vector3 NearestEquivalent(const Vector3& angles, const Vector3& others) {
