@@ -89,27 +89,31 @@ std::vector<std::string> TextsOf(std::span<const C3dEvent> events, Get get) {
 }
 
 void AddEvents(std::span<const C3dEvent> events, C3dParameters& parameters) {
-  const std::string context[] = {"General"}, description[] = {"For other events"};
-  const int icon[] = {0}, orange[] = {255, 164, 0};
+  const std::string contexts[] = {"General", "Left", "Right"};
+  const std::string descriptions[] = {"For other events", "Left side", "Right side"};
+  const int context_icons[] = {0, 1, 2};
+  const int orange_red_green[] = {255, 164, 0, 255, 0, 0, 0, 255, 0};
   parameters.Group("EVENT_CONTEXT");
-  parameters.Integer("USED", 1);
-  parameters.Integers("ICON_IDS", icon, {1});
-  parameters.Texts("LABELS", context);
-  parameters.Texts("DESCRIPTIONS", description);
-  parameters.Integers("COLOURS", orange, {3, 1});
+  parameters.Integer("USED", 3);
+  parameters.Integers("ICON_IDS", context_icons, {3});
+  parameters.Texts("LABELS", contexts);
+  parameters.Texts("DESCRIPTIONS", descriptions);
+  parameters.Integers("COLOURS", orange_red_green, {3, 3});
   std::vector<double> minutes_and_seconds;
+  std::vector<int> icons;
   for (const C3dEvent& event : events) {
     const double minutes = std::floor(event.time_s / 60);
     minutes_and_seconds.insert(minutes_and_seconds.end(), {minutes, event.time_s - 60 * minutes});
+    icons.push_back(event.icon);
   }
   parameters.Group("EVENT");
   parameters.Integer("USED", static_cast<int>(events.size()));
-  parameters.Texts("CONTEXTS", TextsOf(events, [](const C3dEvent&) { return "General"; }));
+  parameters.Texts("CONTEXTS", TextsOf(events, [](const C3dEvent& e) { return e.context; }));
   parameters.Texts("LABELS", TextsOf(events, [](const C3dEvent& e) { return e.label; }));
   parameters.Texts("SUBJECTS", TextsOf(events, [](const C3dEvent& e) { return e.subject; }));
   parameters.Texts("DESCRIPTIONS", std::vector<std::string>(events.size()));
   parameters.Reals("TIMES", minutes_and_seconds, {2, events.size()});
-  parameters.Integers("ICON_IDS", std::vector<int>(events.size()), {events.size()});
+  parameters.Integers("ICON_IDS", icons, {events.size()});
 }
 
 std::string Parameters(const C3dLayout& layout, int data_block) {

@@ -9,11 +9,13 @@
 
 namespace mocap {
 
-/// Start or end of tracking.
+/// Start or end of tracking, or of a foot's contact.
 struct C3dEvent {
   std::string label;
   std::string subject;
   double time_s = 0;
+  std::string context = "General";  ///< Or "Left", "Right".
+  int icon = 0;                     ///< As Vicon's: 1: foot strike, 2: foot off.
 };
 
 struct C3dLayout {

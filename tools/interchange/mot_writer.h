@@ -5,8 +5,9 @@
 
 namespace mocap {
 
-/// Writes joint angles in degrees with the names of Rajagopal's model, and the pelvis position in
-/// metres. Frames without tracking have no row, so a gap is a jump in time.
+/// Writes all coordinates of Rajagopal's model by their names: joint angles in degrees, and the
+/// pelvis position in metres. Those that the result does not show are 0, and remarked on. Frames
+/// without tracking have no row, so a gap is a jump in time.
 /// @pre  the scene has one subject.
 /// @throws SetupError  when no frame is tracked.
 ExportRemarks WriteMot(const ExportScene& scene, std::ostream& out);

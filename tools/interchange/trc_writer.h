@@ -5,9 +5,10 @@
 
 namespace mocap {
 
-/// Writes the 23 points as markers in millimetres, y up (see YUpFromWorld). Joint centres have
-/// their usual names, such as LHJC. Several people are side by side. Cells of people who are not
-/// tracked in a frame are "nan", which OpenSim reads as missing.
+/// Writes the 23 points, heels, toes, ankles and wrists as markers in millimetres, y up (see
+/// YUpFromWorld). Joint centres have their usual names, such as LHJC. Several people are side by
+/// side. Cells of people who are not tracked in a frame, and of points that a result does not have,
+/// are "nan", which OpenSim reads as missing.
 ExportRemarks WriteTrc(const ExportScene& scene, std::ostream& out);
 
 }  // namespace mocap

@@ -2,10 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "core/degrees.h"
 #include "tools/kinematics/euler_angles.h"
-#include "tools/kinematics/rest_body.h"
+#include "tools/kinematics/gait_events.h"
+#include "tools/kinematics/posed_segments.h"
 #include "tools/results/export_axes.h"
 
 namespace mocap {
@@ -41,13 +43,12 @@ struct Turns {
 };
 
 /// @param upper, lower  unit vectors along the parts, in the parent's OpenSim axes.
-Turns TurnsOf(const Vector3& upper, const Vector3& lower, Bends bends) {
+/// @param known_y  rotation of the upper part about itself; empty: as the bend shows it.
+Turns TurnsOf(const Vector3& upper, const Vector3& lower, Bends bends,
+              std::optional<double> known_y) {
   const double x = std::asin(std::clamp(-upper.z(), -1.0, 1.0));
   const double z = std::atan2(upper.x(), -upper.y());
-  const Matrix3 R_zx =
-      (Eigen::AngleAxisd(z, Vector3::UnitZ()) * Eigen::AngleAxisd(x, Vector3::UnitX()))
-          .toRotationMatrix();
-  const Vector3 hinged = R_zx.transpose() * lower;
+  const Vector3 hinged = RotationZxy({z, x, 0}).transpose() * lower;
   const double sign = static_cast<int>(bends);
   const double aside = std::hypot(hinged.x(), hinged.z());
   const double shown =
@@ -55,21 +56,107 @@ Turns TurnsOf(const Vector3& upper, const Vector3& lower, Bends bends) {
   double y = std::atan2(-sign * hinged.z(), sign * hinged.x());
   // A nearly straight limb that bends the wrong way is hyperextended, not rotated.
   if (shown < 1 && std::abs(y) > kQuarter_rad) y -= std::copysign(2 * kQuarter_rad, y);
-  y *= SmoothStep(shown);
+  y = known_y ? *known_y : y * SmoothStep(shown);
   const double bend =
       std::atan2(sign * (hinged.x() * std::cos(y) - hinged.z() * std::sin(y)), -hinged.y());
   return {{z, x, y}, bend};
 }
 
+/// A segment's OpenSim axes, which are the world's for a person who stands facing world x with
+/// hanging arms.
+Matrix3 SimAxesOf(const PosedSegments& posed, Segment segment) {
+  Matrix3 R_hanging = Matrix3::Identity();
+  if (segment == Segment::kHandL) R_hanging = ExpRotation(-kQuarter_rad * Vector3::UnitX());
+  if (segment == Segment::kHandR) R_hanging = ExpRotation(kQuarter_rad * Vector3::UnitX());
+  return posed.RotationOf(segment) * R_hanging.transpose() * SimFromBody().transpose();
+}
+
+/// Axes x ahead, y up, z right of a person who walks.
+/// @param R_WPelvis  OpenSim axes.
+/// @param way_W  direction of walking; zero: stands.
+Matrix3 WalkerAxes(const Matrix3& R_WPelvis, const Vector3& way_W) {
+  // Whoever goes more sideways than this, by 45 degrees, has no direction of gait.
+  constexpr double kAlong = 0.7071;
+  Vector3 facing_W(R_WPelvis(0, 0), R_WPelvis(1, 0), 0);
+  facing_W = facing_W.isZero(1e-6) ? Vector3(Vector3::UnitX()) : Vector3(facing_W.normalized());
+  const double along = way_W.dot(facing_W);
+  const Vector3 ahead =
+      std::abs(along) < kAlong ? facing_W : Vector3(std::copysign(1.0, along) * way_W);
+  Matrix3 R;
+  R << ahead, Vector3::UnitZ(), ahead.cross(Vector3::UnitZ());
+  return R;
+}
+
+/// Direction of walking in each tracked frame; zero: stands.
+std::vector<Vector3> WaysOf(const Result& result) {
+  GaitRun frames;
+  for (const PoseRow& row : result.poses) {
+    if (!IsTracked(row)) continue;
+    GaitFrame& frame = frames.emplace_back();
+    frame.time_s = 1e-9 * static_cast<double>(row.timestamp_ns - result.poses[0].timestamp_ns);
+    frame.pelvis_W = HipsMiddle(row);
+  }
+  return DirectionsOf(frames);
+}
+
+bool Shows(const PoseRow& row, Point further) {
+  return row.further_W.col(static_cast<int>(further) - kPointCount).allFinite();
+}
+
+struct Limb {
+  Point start, hinge, end;
+  Point last;  ///< Ankle or wrist.
+  Bends bends;
+  double side;  ///< 1: right, -1: left.
+  Segment upper, lower, tip;
+};
+
+constexpr Limb kLegL = {Point::kHipL,     Point::kKneeL,    Point::kFootL,
+                        Point::kAnkleL,   Bends::kBackward, -1,
+                        Segment::kThighL, Segment::kCalfL,  Segment::kFootL};
+constexpr Limb kLegR = {Point::kHipR,     Point::kKneeR,    Point::kFootR,
+                        Point::kAnkleR,   Bends::kBackward, 1,
+                        Segment::kThighR, Segment::kCalfR,  Segment::kFootR};
+constexpr Limb kArmL = {Point::kShoulderL,   Point::kElbowL,      Point::kLowerArmL,
+                        Point::kWristL,      Bends::kForward,     -1,
+                        Segment::kUpperArmL, Segment::kLowerArmL, Segment::kHandL};
+constexpr Limb kArmR = {Point::kShoulderR,   Point::kElbowR,      Point::kLowerArmR,
+                        Point::kWristR,      Bends::kForward,     1,
+                        Segment::kUpperArmR, Segment::kLowerArmR, Segment::kHandR};
+
+LimbAngles AnglesIn(const Turns& turns, double side) {
+  return {turns.zxy[0], side * turns.zxy[1], side * turns.zxy[2], turns.bend};
+}
+
+FootAngles FootOf(const PosedSegments& posed, const PoseRow& row, const Limb& leg) {
+  if (!Shows(row, leg.last)) return {};
+  const Vector3 mirror(1, 1, leg.side);
+  return FootAnglesOf(mirror.asDiagonal() *
+                      (SimAxesOf(posed, leg.lower).transpose() * SimAxesOf(posed, leg.tip)) *
+                      mirror.asDiagonal());
+}
+
+/// @param turns  of the arm: the forearm's axes follow from them, as in the model.
+HandAngles HandOf(const PosedSegments& posed, const PoseRow& row, const Limb& arm,
+                  const Matrix3& R_WT, const Turns& turns) {
+  if (!Shows(row, arm.last)) return {};
+  const Matrix3 R_WForearm = R_WT * RotationZxy(turns.zxy) * RotationZxy({turns.bend, 0, 0});
+  const Vector3 zxy = AnglesZxy(R_WForearm.transpose() * SimAxesOf(posed, arm.tip));
+  return {zxy[0], arm.side * zxy[1]};
+}
+
 class AngleReader {
  public:
-  explicit AngleReader(const BodyRecord& body) : rest_(body) {}
+  explicit AngleReader(const BodyRecord& body) : segments_(body) {}
 
-  BodyAngles Read(const PoseRow& row) {
+  /// @param way_W  direction of walking; zero: stands.
+  BodyAngles Read(const PoseRow& row, const Vector3& way_W) {
+    const PosedSegments posed = segments_.Pose(row);
     const Matrix3 R_GW = YUpFromWorld();
-    const Matrix3 R_WP = rest_.PelvisRotation(row) * SimFromBody().transpose();
-    const Matrix3 R_WT = TorsoRotation(row) * SimFromBody().transpose();
+    const Matrix3 R_WP = SimAxesOf(posed, Segment::kPelvis);
+    const Matrix3 R_WT = SimAxesOf(posed, Segment::kTorso);
     const Matrix3 R_GP = R_GW * R_WP;
+    const Matrix3 R_WalkerW = WalkerAxes(R_WP, way_W).transpose();
     const double scale =
         1e-3 * (At(row, Point::kHipL) - At(row, Point::kHipR)).norm() / kHipsApart_m;
     BodyAngles angles;
@@ -78,30 +165,24 @@ class AngleReader {
         1e-3 * (R_GW * HipsMiddle(row)) - R_GP * (scale * Vector3(kHipForward_m, kHipUp_m, 0));
     angles.pelvis = Follow(AnglesZxy(R_GP), last_.pelvis);
     angles.lumbar = Follow(AnglesZxy(R_WP.transpose() * R_WT), last_.lumbar);
-    const auto limb = [&](const Matrix3& R_WParent, Point start, Point hinge, Point end,
-                          Bends bends, double side, Vector3& last) {
-      const auto along = [&](Point a, Point b) -> Vector3 {
-        return R_WParent.transpose() * (At(row, b) - At(row, a)).normalized();
-      };
-      const Turns turns = TurnsOf(along(start, hinge), along(hinge, end), bends);
-      const Vector3 zxy = Follow(turns.zxy, last);
-      return LimbAngles{zxy[0], side * zxy[1], side * zxy[2], turns.bend};
+    const auto in_walker = [&](Segment segment) {
+      return AnglesZxy(R_WalkerW * SimAxesOf(posed, segment));
     };
-    angles.leg_l =
-        limb(R_WP, Point::kHipL, Point::kKneeL, Point::kFootL, Bends::kBackward, -1, last_.leg_l);
-    angles.leg_r =
-        limb(R_WP, Point::kHipR, Point::kKneeR, Point::kFootR, Bends::kBackward, 1, last_.leg_r);
-    angles.arm_l = limb(R_WT, Point::kShoulderL, Point::kElbowL, Point::kLowerArmL, Bends::kForward,
-                        -1, last_.arm_l);
-    angles.arm_r = limb(R_WT, Point::kShoulderR, Point::kElbowR, Point::kLowerArmR, Bends::kForward,
-                        1, last_.arm_r);
+    angles.walker_pelvis = Follow(in_walker(Segment::kPelvis), last_.walker_pelvis);
+    angles.walker_torso = Follow(in_walker(Segment::kTorso), last_.walker_torso);
+    angles.walker_head = Follow(in_walker(Segment::kHead), last_.walker_head);
+    ReadLeg(row, posed, kLegL, last_.leg_l, angles.leg_l, angles.foot_l);
+    ReadLeg(row, posed, kLegR, last_.leg_r, angles.leg_r, angles.foot_r);
+    ReadArm(row, posed, kArmL, last_.arm_l, angles.arm_l, angles.hand_l);
+    ReadArm(row, posed, kArmR, last_.arm_r, angles.arm_r, angles.hand_r);
     return angles;
   }
 
  private:
   /// Of the previous frame, about z, x and y.
   struct Last {
-    Vector3 pelvis = Vector3::Zero(), lumbar = Vector3::Zero(), leg_l = Vector3::Zero(),
+    Vector3 pelvis = Vector3::Zero(), lumbar = Vector3::Zero(), walker_pelvis = Vector3::Zero(),
+            walker_torso = Vector3::Zero(), walker_head = Vector3::Zero(), leg_l = Vector3::Zero(),
             leg_r = Vector3::Zero(), arm_l = Vector3::Zero(), arm_r = Vector3::Zero();
   };
 
@@ -110,7 +191,36 @@ class AngleReader {
     return last;
   }
 
-  RestBody rest_;
+  static Turns TurnsIn(const PoseRow& row, const Limb& limb, const Matrix3& R_WParent,
+                       std::optional<double> rotation, Vector3& last) {
+    const auto along = [&](Point a, Point b) -> Vector3 {
+      return R_WParent.transpose() * (At(row, b) - At(row, a)).normalized();
+    };
+    Turns turns =
+        TurnsOf(along(limb.start, limb.hinge), along(limb.hinge, limb.end), limb.bends, rotation);
+    turns.zxy = Follow(turns.zxy, last);
+    return turns;
+  }
+
+  static void ReadLeg(const PoseRow& row, const PosedSegments& posed, const Limb& limb,
+                      Vector3& last, LimbAngles& angles, FootAngles& foot) {
+    const Matrix3 R_WP = SimAxesOf(posed, Segment::kPelvis);
+    std::optional<double> rotation;
+    if (Shows(row, limb.last))
+      rotation = AnglesZxy(R_WP.transpose() * SimAxesOf(posed, limb.upper))[2];
+    angles = AnglesIn(TurnsIn(row, limb, R_WP, rotation, last), limb.side);
+    foot = FootOf(posed, row, limb);
+  }
+
+  static void ReadArm(const PoseRow& row, const PosedSegments& posed, const Limb& limb,
+                      Vector3& last, LimbAngles& angles, HandAngles& hand) {
+    const Matrix3 R_WT = SimAxesOf(posed, Segment::kTorso);
+    const Turns turns = TurnsIn(row, limb, R_WT, {}, last);
+    angles = AnglesIn(turns, limb.side);
+    hand = HandOf(posed, row, limb, R_WT, turns);
+  }
+
+  SegmentPoser segments_;
   Last last_;
 };
 
@@ -124,20 +234,29 @@ std::array<double, kCoordinateNames.size()> CoordinatesOf(const BodyAngles& angl
     add({limb.flexion, limb.adduction, limb.rotation});
     *next++ = limb.bend;
   };
+  const auto add_two = [&](double one, double other) {
+    *next++ = one;
+    *next++ = other;
+  };
   add(angles.pelvis);
   add_limb(angles.leg_r);
+  add_two(angles.foot_r.ankle, angles.foot_r.subtalar);
   add_limb(angles.leg_l);
+  add_two(angles.foot_l.ankle, angles.foot_l.subtalar);
   add(angles.lumbar);
   add_limb(angles.arm_r);
+  add_two(angles.hand_r.flexion, angles.hand_r.deviation);
   add_limb(angles.arm_l);
+  add_two(angles.hand_l.flexion, angles.hand_l.deviation);
   return values;
 }
 
 std::vector<BodyAngles> AnglesOf(const Result& result) {
   std::vector<BodyAngles> angles;
   AngleReader reader(result.body);
+  const std::vector<Vector3> ways = WaysOf(result);
   for (const PoseRow& row : result.poses) {
-    if (IsTracked(row)) angles.push_back(reader.Read(row));
+    if (IsTracked(row)) angles.push_back(reader.Read(row, ways[angles.size()]));
   }
   return angles;
 }

@@ -5,6 +5,7 @@
 
 #include <cmath>
 #include <filesystem>
+#include <map>
 #include <sstream>
 #include <string>
 
@@ -42,6 +43,15 @@ void ExpectPoints(const ReadC3d& c3d, std::size_t frame, const PoseRow& row,
     const C3dPoint& point = c3d.Point(frame, prefix + std::string(kPointNames[i]));
     EXPECT_LT((Vector3(point.x, point.y, point.z) - row.points_W.col(i)).norm(), 0.01);
     EXPECT_NEAR(point.residual, row.residual_mm, 0.13);
+  }
+  const std::map<std::string, Point> markers = {{"LHEE", Point::kHeelL},  {"RHEE", Point::kHeelR},
+                                                {"LTOE", Point::kToeL},   {"RTOE", Point::kToeR},
+                                                {"LANK", Point::kAnkleL}, {"RANK", Point::kAnkleR},
+                                                {"LWRA", Point::kWristL}, {"RWRA", Point::kWristR}};
+  for (const auto& [name, at] : markers) {
+    const C3dPoint& point = c3d.Point(frame, prefix + name);
+    const Vector3 p_W = row.further_W.col(static_cast<int>(at) - kPointCount);
+    EXPECT_LT((Vector3(point.x, point.y, point.z) - p_W).norm(), 0.01) << name;
   }
 }
 
@@ -123,7 +133,9 @@ TEST(C3dWriter, AnglesArePointsOfATypeOfTheirOwn) {
   EXPECT_THAT(
       c3d.At("POINT:ANGLES").texts,
       ElementsAre("LHipAngles", "RHipAngles", "LKneeAngles", "RKneeAngles", "LShoulderAngles",
-                  "RShoulderAngles", "LElbowAngles", "RElbowAngles", "SpineAngles"));
+                  "RShoulderAngles", "LElbowAngles", "RElbowAngles", "SpineAngles", "LAnkleAngles",
+                  "RAnkleAngles", "LWristAngles", "RWristAngles", "LPelvisAngles", "RPelvisAngles",
+                  "LThoraxAngles", "RThoraxAngles", "LHeadAngles", "RHeadAngles"));
   EXPECT_THAT(c3d.At("POINT:TYPE_GROUPS").texts, ElementsAre("ANGLES", "ANGLE_UNITS"));
   EXPECT_THAT(c3d.At("POINT:TYPE_GROUPS").dims, ElementsAre(11, 2, 1));
   EXPECT_EQ(c3d.At("POINT:ANGLE_UNITS").texts[0], "deg");
@@ -150,6 +162,119 @@ TEST(C3dWriter, FramesWithoutTrackingAreNotSeenAndEventsTellOfThem) {
   }
 }
 
+/// Angles of somebody who stands, faces in a direction, and has turned one joint.
+Vector3 C3dAnglesOfTurn(const std::string& label, const std::string& joint, double degrees,
+                        double heading_rad = 0) {
+  const BodyModel body = GrownBody();
+  PoseState pose = testing::Standing(body);
+  pose.X_WT.R = ExpRotation({0, 0, heading_rad});
+  testing::Turn(body, "shoulder_l_x", -90, pose);
+  testing::Turn(body, "shoulder_r_x", 90, pose);
+  testing::Turn(body, joint, degrees, pose);
+  const C3dPoint point = WriteAndReadC3d(ResultOf(body, pose)).Point(0, label);
+  EXPECT_GE(point.residual, 0) << label;
+  return {point.x, point.y, point.z};
+}
+
+TEST(C3dWriter, AnglesHaveTheSignsOfPlugInGait) {
+  struct Case {
+    const char *joint, *label;
+    double degrees;
+    Vector3 wanted;
+  };
+  const Case cases[] = {{"ankle_l_y", "LAnkleAngles", 20, {-20, 0, 0}},
+                        {"ankle_r_y", "RAnkleAngles", -15, {15, 0, 0}},
+                        {"wrist_l_x", "LWristAngles", 20, {-20, 0, 0}},
+                        {"wrist_r_x", "RWristAngles", 20, {20, 0, 0}},
+                        {"wrist_l_z", "LWristAngles", -20, {0, -20, 0}},
+                        {"wrist_r_z", "RWristAngles", 20, {0, -20, 0}},
+                        {"waist_x", "LPelvisAngles", 10, {0, 10, 0}},
+                        {"waist_x", "RPelvisAngles", 10, {0, -10, 0}},
+                        {"waist_y", "LPelvisAngles", -10, {-10, 0, 0}},
+                        {"neck_y", "LHeadAngles", 20, {-20, 0, 0}},
+                        {"neck_x", "LHeadAngles", 20, {0, 20, 0}},
+                        {"neck_x", "RHeadAngles", 20, {0, -20, 0}}};
+  for (const double heading_rad : {0.0, 1.0, -2.5}) {
+    for (const Case& c : cases) {
+      const Vector3 angles = C3dAnglesOfTurn(c.label, c.joint, c.degrees, heading_rad);
+      EXPECT_LT((angles - c.wanted).norm(), 0.01)
+          << c.label << " of " << c.joint << ": " << angles.transpose();
+    }
+  }
+}
+
+TEST(C3dWriter, WhoWalksTurnsThePelvisAgainstTheWay) {
+  for (const double heading_rad : {0.0, 2.0}) {
+    Result result = testing::WalkingResult(60, heading_rad);
+    const BodyModel body = GrownBody();
+    const auto turn = Eigen::AngleAxisd(0.2, Vector3::UnitZ()).toRotationMatrix();
+    PoseState pose = testing::Standing(body);
+    pose.X_WT.R = turn * ExpRotation({0, 0, heading_rad});
+    pose.X_WT.p = (result.poses[30].paper.torso_mm + result.poses[31].paper.torso_mm) / 2;
+    PoseRow row = testing::TrackedRow(body, pose);
+    row.frame = 30;
+    row.timestamp_ns = result.poses[30].timestamp_ns;
+    result.poses[30] = row;
+    const ReadC3d c3d = WriteAndReadC3d(result);
+    // Turned left: the right side is forward.
+    EXPECT_NEAR(c3d.Point(30, "LPelvisAngles").z, -0.2 * 180 / EIGEN_PI, 0.1);
+    EXPECT_NEAR(c3d.Point(30, "RPelvisAngles").z, 0.2 * 180 / EIGEN_PI, 0.1);
+    EXPECT_NEAR(c3d.Point(20, "LPelvisAngles").z, 0, 0.1);
+  }
+}
+
+TEST(C3dWriter, WhatAnOldResultDoesNotHaveIsNotSeen) {
+  Result result = SwingingResult(2);
+  testing::MakeOld(result);
+  const ReadC3d c3d = WriteAndReadC3d(result);
+  for (const char* label : {"LHEE", "RTOE", "LANK", "RWRA", "LAnkleAngles", "RWristAngles"})
+    EXPECT_LT(c3d.Point(1, label).residual, 0) << label;
+  for (const char* label : {"foot_l", "LKneeAngles", "LPelvisAngles", "RHeadAngles"})
+    EXPECT_GE(c3d.Point(1, label).residual, 0) << label;
+}
+
+TEST(C3dWriter, FeetStrikeAndLeaveTheFloorOnTheirSide) {
+  Result result = testing::WalkingResult(150);
+  // Seconds count from the file's first frame, though a frame is missing.
+  result.poses.erase(result.poses.begin() + 70);
+  const ReadC3d c3d = WriteAndReadC3d(result);
+  EXPECT_THAT(c3d.At("EVENT_CONTEXT:LABELS").texts, ElementsAre("General", "Left", "Right"));
+  std::map<std::string, int> counts;
+  double last_s = 0;
+  for (int i = 0; i < c3d.Number("EVENT:USED"); ++i) {
+    const std::string label = c3d.At("EVENT:LABELS").texts.at(i);
+    const std::string context = c3d.At("EVENT:CONTEXTS").texts.at(i);
+    const double time_s =
+        60 * c3d.Number("EVENT:TIMES", 2 * i) + c3d.Number("EVENT:TIMES", 2 * i + 1);
+    EXPECT_GE(time_s, last_s) << "in order of time";
+    last_s = time_s;
+    ++counts[context + ' ' + label];
+    if (context == "General") continue;
+    const bool is_strike = label == "Foot Strike";
+    EXPECT_EQ(c3d.Number("EVENT:ICON_IDS", i), is_strike ? 1 : 2);
+    const double cycles =
+        time_s / testing::kWalkCycle_s - (context == "Left" ? 0.25 : 0.75) - (is_strike ? 0 : 0.5);
+    EXPECT_NEAR(cycles, std::round(cycles), 0.02) << context << ' ' << label << ' ' << time_s;
+  }
+  for (const char* event :
+       {"Left Foot Strike", "Left Foot Off", "Right Foot Strike", "Right Foot Off"}) {
+    EXPECT_GE(counts[event], 4) << event;
+    EXPECT_LE(counts[event], 6) << event;
+  }
+  EXPECT_EQ(counts["General Tracking starts"], 1);
+}
+
+TEST(C3dWriter, MoreEventsThanItHoldsAreTold) {
+  const Result result = testing::WalkingResult(2000);
+  const ExportSubject subject{"", result};
+  std::ostringstream file;
+  const ExportRemarks remarks = WriteC3d({std::span(&subject, 1), result.poses, "walk.c3d"}, file);
+  EXPECT_THAT(remarks, ElementsAre(::testing::HasSubstr("of which C3D can hold the first 255")));
+  const ReadC3d c3d = testing::ReadC3dFile(file.str());
+  EXPECT_EQ(c3d.Number("EVENT:USED"), 255);
+  EXPECT_EQ(c3d.At("EVENT:LABELS").texts.size(), 255u);
+}
+
 TEST(C3dWriter, SeveralPeopleStandBesideEachOtherWithTheirNames) {
   const Result first = SwingingResult(4);
   Result second = SwingingResult(4);
@@ -172,9 +297,9 @@ TEST(C3dWriter, EightPeopleHaveMoreLabelsThanOneArrayHolds) {
   std::vector<ExportSubject> subjects;
   for (int i = 1; i <= 8; ++i) subjects.push_back({"person-" + std::to_string(i), result});
   const ReadC3d c3d = WriteAndReadC3d({subjects, result.poses, "all.c3d", true});
-  ASSERT_EQ(c3d.labels.size(), 8u * 32);
+  ASSERT_EQ(c3d.labels.size(), 8u * 50);
   EXPECT_EQ(c3d.At("POINT:LABELS").texts.size(), 255u);
-  EXPECT_EQ(c3d.labels.back(), "person-8:SpineAngles");
+  EXPECT_EQ(c3d.labels.back(), "person-8:RHeadAngles");
 }
 
 TEST(C3dWriter, MorePeopleThanItCanNameAreTold) {

@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <map>
 #include <sstream>
 #include <string>
@@ -10,7 +11,7 @@
 
 #include "core/errors.h"
 #include "tests/support/moving_body.h"
-#include "tools/kinematics/joint_angles.h"
+#include "tools/kinematics/foot_angles.h"
 #include "tools/results/export_axes.h"
 
 namespace mocap {
@@ -56,11 +57,29 @@ TEST(MotWriter, SaysHowManyFramesHaveNoRow) {
     std::stringstream text;
     return WriteMot({std::span(&subject, 1), result.poses, "walk.mot"}, text);
   };
-  EXPECT_THAT(remarks(), ::testing::IsEmpty());
+  const std::string held =
+      "not measured, and 0 in the file: mtp_angle_r, mtp_angle_l, pro_sup_r, pro_sup_l";
+  EXPECT_THAT(remarks(), ::testing::ElementsAre(held));
   result.poses[3].state = CaptureState::kLost;
-  EXPECT_THAT(remarks(), ::testing::ElementsAre("1 frame is not tracked and has no row"));
+  EXPECT_THAT(remarks(), ::testing::ElementsAre(held, "1 frame is not tracked and has no row"));
   result.poses[4].state = CaptureState::kLost;
-  EXPECT_THAT(remarks(), ::testing::ElementsAre("2 frames are not tracked and have no row"));
+  EXPECT_THAT(remarks(), ::testing::ElementsAre(held, "2 frames are not tracked and have no row"));
+}
+
+TEST(MotWriter, HoldsWhatAnOldResultDoesNotShowAndSaysSo) {
+  Result result = SwingingResult(3);
+  testing::MakeOld(result);
+  const ExportSubject subject{"", result};
+  std::stringstream text;
+  EXPECT_THAT(WriteMot({std::span(&subject, 1), result.poses, "walk.mot"}, text),
+              ::testing::ElementsAre(
+                  "not measured, and 0 in the file: ankle_angle_r, subtalar_angle_r, mtp_angle_r, "
+                  "ankle_angle_l, subtalar_angle_l, mtp_angle_l, pro_sup_r, wrist_flex_r, "
+                  "wrist_dev_r, pro_sup_l, wrist_flex_l, wrist_dev_l"));
+  for (const Row& row : WriteAndReadMot(result).rows) {
+    EXPECT_EQ(row.at("ankle_angle_l"), 0);
+    EXPECT_EQ(row.at("wrist_dev_r"), 0);
+  }
 }
 
 /// The angles of somebody who stands with hanging arms and turns one joint.
@@ -78,7 +97,7 @@ TEST(MotWriter, WritesTheHeaderThatOpenSimReads) {
   ASSERT_GE(mot.header.size(), 5u);
   EXPECT_EQ(mot.header[0], "Coordinates");
   EXPECT_THAT(mot.header,
-              ::testing::IsSupersetOf({"version=1", "nRows=7", "nColumns=26", "inDegrees=yes"}));
+              ::testing::IsSupersetOf({"version=1", "nRows=7", "nColumns=40", "inDegrees=yes"}));
   EXPECT_NEAR(mot.rows.at(6).at("time"), 0.24, 1e-9);
 }
 
@@ -107,7 +126,10 @@ TEST(MotWriter, AnglesHaveTheSignsOfOpenSimsModel) {
       {"hip_r_x", -30, "hip_adduction_r", -30}, {"knee_l_y", 50, "knee_angle_l", 50},
       {"knee_r_y", 50, "knee_angle_r", 50},     {"elbow_l_z", -70, "elbow_flex_l", 70},
       {"elbow_r_z", 70, "elbow_flex_r", 70},    {"waist_y", 20, "lumbar_extension", 20},
-      {"waist_y", 20, "pelvis_list", 20},
+      {"waist_y", 20, "pelvis_list", 20},       {"knee_l_y", 50, "knee_angle_l_beta", 50},
+      {"wrist_l_x", 20, "wrist_dev_l", -20},    {"wrist_r_x", 20, "wrist_dev_r", 20},
+      {"wrist_l_z", -20, "wrist_flex_l", 20},   {"wrist_r_z", 20, "wrist_flex_r", 20},
+      {"hip_l_z", 25, "hip_rotation_l", -25},   {"hip_r_z", 25, "hip_rotation_r", 25},
   };
   for (const Case& c : cases) {
     EXPECT_NEAR(AnglesOfTurn(c.joint, c.degrees).at(c.coordinate), c.wanted, 0.01)
@@ -131,14 +153,61 @@ TEST(MotWriter, ReadsTurnsOfALimbAboutItselfFromItsBend) {
   EXPECT_NEAR(row.at("knee_angle_l"), 80, 0.01);
 }
 
-TEST(MotWriter, TurnsOfAStraightLimbAboutItselfFadeOut) {
+/// Turned about the axes of the model's ankle, a left foot mirrored.
+TEST(FootAngles, AreThoseOfTheModelsAxes) {
+  const Vector3 ankle(-0.10501355, -0.17402245, 0.97912632);
+  const Vector3 subtalar(0.78717961, 0.60474746, -0.12094949);
+  for (const double up : {-0.8, -0.2, 0.0, 0.5}) {
+    for (const double in : {-0.6, 0.0, 0.3}) {
+      const FootAngles angles = FootAnglesOf(ExpRotation(ankle * up) * ExpRotation(subtalar * in));
+      EXPECT_NEAR(angles.ankle, up, 1e-6);
+      EXPECT_NEAR(angles.subtalar, in, 1e-6);
+    }
+  }
+}
+
+TEST(FootAngles, ToesUpAndTheSoleInwardArePositive) {
+  const FootAngles up = FootAnglesOf(ExpRotation({0, 0, 0.3}));
+  EXPECT_GT(up.ankle, 0.25);
+  EXPECT_NEAR(up.about_shin[0], 0.3, 1e-9);
+  // Of the right foot, whose inner side is the left one.
+  const FootAngles inward = FootAnglesOf(ExpRotation({0.3, 0, 0}));
+  EXPECT_GT(inward.subtalar, 0.2);
+  EXPECT_NEAR(inward.about_shin[1], 0.3, 1e-9);
+}
+
+TEST(MotWriter, BothFeetHaveTheSameSigns) {
+  for (const double degrees : {-20.0, 15.0}) {
+    const Row left = AnglesOfTurn("ankle_l_y", degrees), right = AnglesOfTurn("ankle_r_y", degrees);
+    EXPECT_NEAR(left.at("ankle_angle_l"), right.at("ankle_angle_r"), 0.01);
+    EXPECT_NEAR(left.at("subtalar_angle_l"), right.at("subtalar_angle_r"), 0.01);
+    EXPECT_NEAR(left.at("ankle_angle_l"), -degrees, 0.1 * std::abs(degrees)) << "down is negative";
+  }
+}
+
+TEST(MotWriter, FeetShowHowAStraightLegIsTurned) {
+  for (double bend = 0; bend <= 30; bend += 5) {
+    const BodyModel body = GrownBody();
+    PoseState pose = Standing(body);
+    Turn(body, "knee_l_y", bend, pose);
+    Turn(body, "hip_l_z", 25, pose);
+    const Row row = WriteAndReadMot(ResultOf(body, pose)).rows.at(0);
+    EXPECT_NEAR(row.at("hip_rotation_l"), -25, 0.01) << bend;
+    EXPECT_NEAR(row.at("knee_angle_l"), bend, 0.01);
+    EXPECT_NEAR(row.at("ankle_angle_l"), 0, 0.01);
+  }
+}
+
+TEST(MotWriter, WithoutFeetTurnsOfAStraightLimbAboutItselfFadeOut) {
   double last = 0;
   const BodyModel body = GrownBody();
   for (double bend = 0; bend <= 30; bend += 0.5) {
     PoseState pose = Standing(body);
     Turn(body, "knee_l_y", bend, pose);
     Turn(body, "hip_l_z", 25, pose);
-    const double rotation = WriteAndReadMot(ResultOf(body, pose)).rows.at(0).at("hip_rotation_l");
+    Result result = ResultOf(body, pose);
+    testing::MakeOld(result);
+    const double rotation = WriteAndReadMot(result).rows.at(0).at("hip_rotation_l");
     if (bend < 10) {
       EXPECT_NEAR(rotation, 0, 0.01) << bend;
     }
@@ -203,6 +272,41 @@ TEST(MotWriter, TheModelsJointsTurnedByTheAnglesPointWhereTheLimbsDo) {
                   .norm(),
               elbow)
         << i;
+  }
+}
+
+TEST(MotWriter, TheModelsFeetAndHandsPointWhereThePersonsDo) {
+  const BodyModel body = GrownBody();
+  for (int i = 0; i < 100; ++i) {
+    PoseState pose = testing::Swinging(body, 0.1 * i);
+    // The foot's last axis is not the model's.
+    pose.theta[body.table().carrier[static_cast<int>(Segment::kFootR)]] = 0;
+    const Result result = ResultOf(body, pose);
+    const Row row = WriteAndReadMot(result).rows.at(0);
+    const auto along = [&](Point a, Point b) -> Vector3 {
+      BodyPlaces places;
+      places << result.poses[0].points_W, result.poses[0].further_W;
+      return YUpFromWorld() *
+             (places.col(static_cast<int>(b)) - places.col(static_cast<int>(a))).normalized();
+    };
+    const auto turned = [&](const char* z, const char* x, const char* y) {
+      return Turned(row.at(z), row.at(x), row.at(y));
+    };
+    const auto about = [&](const Vector3& axis, const char* name) {
+      return ExpRotation(axis * (row.at(name) * EIGEN_PI / 180));
+    };
+    const Matrix3 R_pelvis = turned("pelvis_tilt", "pelvis_list", "pelvis_rotation");
+    const Matrix3 R_torso =
+        R_pelvis * turned("lumbar_extension", "lumbar_bending", "lumbar_rotation");
+    const Matrix3 R_foot = R_pelvis * turned("hip_flexion_r", "hip_adduction_r", "hip_rotation_r") *
+                           Turned(-row.at("knee_angle_r"), 0, 0) *
+                           about({-0.10501355, -0.17402245, 0.97912632}, "ankle_angle_r") *
+                           about({0.78717961, 0.60474746, -0.12094949}, "subtalar_angle_r");
+    EXPECT_GT((R_foot * Vector3::UnitX()).dot(along(Point::kHeelR, Point::kToeR)), 0.99) << i;
+    const Matrix3 R_hand = R_torso * turned("arm_flex_r", "arm_add_r", "arm_rot_r") *
+                           Turned(row.at("elbow_flex_r"), 0, 0) *
+                           Turned(row.at("wrist_flex_r"), row.at("wrist_dev_r"), 0);
+    EXPECT_LT((-R_hand.col(1) - along(Point::kWristR, Point::kFingertipsR)).norm(), 1e-4) << i;
   }
 }
 

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <map>
 #include <set>
 #include <sstream>
 #include <string>
@@ -72,25 +73,44 @@ TEST(TrcWriter, WritesTheHeaderThatOpenSimReads) {
   EXPECT_THAT(rows[1], ElementsAre("DataRate", "CameraRate", "NumFrames", "NumMarkers", "Units",
                                    "OrigDataRate", "OrigDataStartFrame", "OrigNumFrames"));
   EXPECT_THAT(rows[2],
-              ElementsAre("20.000000", "20.000000", "2", "23", "mm", "20.000000", "1", "2"));
+              ElementsAre("20.000000", "20.000000", "2", "31", "mm", "20.000000", "1", "2"));
   EXPECT_EQ(rows[3][0], "Frame#");
   EXPECT_EQ(rows[3][2 + 3 * 18], "fingertips_r");
   EXPECT_EQ(rows[3][2 + 3 * static_cast<int>(Point::kHipL)], "LHJC");
   EXPECT_EQ(rows[3][2 + 3 * static_cast<int>(Point::kElbowR)], "REJC");
   EXPECT_EQ(rows[4][2 + 3 * 18], "X19");
-  EXPECT_EQ(rows[4].back(), "Z23");
+  EXPECT_EQ(rows[3][2 + 3 * 23], "LHeel");
+  EXPECT_EQ(rows[3][2 + 3 * 26], "RToe");
+  EXPECT_EQ(rows[4].back(), "Z31");
 }
 
 TEST(TrcWriter, TurnsTheWorldYUpWithoutMirroringIt) {
   const std::string text = Written(WriteTrc, TwoFrames(), "walk.trc");
   const auto rows = Cells(text, '\t');
   const std::vector<std::string>& row = rows[6];
-  ASSERT_EQ(row.size(), 2u + 3 * 23);
+  ASSERT_EQ(row.size(), 2u + 3 * 31);
   EXPECT_EQ(row[0], "1");
   // World (100, -300, 2150): 100 before the origin, 300 to the right, 2150 up.
   EXPECT_EQ(row[2 + 3 * 18], "-300.000");
   EXPECT_EQ(row[3 + 3 * 18], "2150.000");
   EXPECT_EQ(row[4 + 3 * 18], "100.000");
+}
+
+TEST(TrcWriter, HasHeelsToesAnklesAndWrists) {
+  const BodyModel body = testing::GrownBody();
+  const Result result = testing::ResultOf(body, testing::RightArmRaised(body));
+  const auto rows = Cells(Written(WriteTrc, result), '\t');
+  const std::map<std::string, Point> markers = {{"LHeel", Point::kHeelL}, {"RHeel", Point::kHeelR},
+                                                {"LToe", Point::kToeL},   {"RToe", Point::kToeR},
+                                                {"LAJC", Point::kAnkleL}, {"RAJC", Point::kAnkleR},
+                                                {"LWJC", Point::kWristL}, {"RWJC", Point::kWristR}};
+  for (const auto& [name, point] : markers) {
+    const auto column = std::ranges::find(rows[3], name) - rows[3].begin();
+    const Vector3 p_W = result.poses[0].further_W.col(static_cast<int>(point) - kPointCount);
+    EXPECT_NEAR(std::stod(rows[6].at(column)), p_W.y(), 0.001) << name;
+    EXPECT_NEAR(std::stod(rows[6].at(column + 1)), p_W.z(), 0.001) << name;
+    EXPECT_NEAR(std::stod(rows[6].at(column + 2)), p_W.x(), 0.001) << name;
+  }
 }
 
 /// As OpenSim's reader: what follows the last tab counts if it is not empty.
@@ -106,7 +126,7 @@ TEST(TrcWriter, OpenSimFindsAllColumnsInEveryRow) {
   std::string line;
   for (int i = 0; i < 6; ++i) std::getline(lines, line);
   int rows = 0;
-  for (; std::getline(lines, line); ++rows) EXPECT_EQ(OpenSimFields(line).size(), 2u + 3 * 23);
+  for (; std::getline(lines, line); ++rows) EXPECT_EQ(OpenSimFields(line).size(), 2u + 3 * 31);
   EXPECT_EQ(rows, 2);
 }
 
@@ -117,6 +137,7 @@ TEST(TrcWriter, SeveralPeopleStandBesideEachOtherWithTheirNames) {
   second.poses[0].state = CaptureState::kTracking;
   second.poses[0].has_pose = true;
   second.poses[0].points_W.setConstant(5);
+  second.poses[0].further_W.setConstant(5);
   const ExportSubject subjects[] = {{"anna", first}, {"person-2", second}};
   std::ostringstream written;
   WriteTrc({subjects, MomentsOf({{"anna", first}, {"person-2", second}}), "both.trc", true},
@@ -124,11 +145,11 @@ TEST(TrcWriter, SeveralPeopleStandBesideEachOtherWithTheirNames) {
   const std::string text = written.str();
   const auto rows = Cells(text, '\t');
   ASSERT_EQ(rows.size(), 8u);
-  EXPECT_EQ(rows[2][3], "46");
+  EXPECT_EQ(rows[2][3], "62");
   EXPECT_EQ(rows[3][2], "anna:torso");
-  EXPECT_EQ(rows[3][2 + 3 * 23], "person-2:torso");
-  EXPECT_EQ(rows[4].back(), "Z46");
-  ASSERT_EQ(rows[6].size(), 2u + 3 * 46);
+  EXPECT_EQ(rows[3][2 + 3 * 31], "person-2:torso");
+  EXPECT_EQ(rows[4].back(), "Z62");
+  ASSERT_EQ(rows[6].size(), 2u + 3 * 62);
   EXPECT_EQ(rows[6][2 + 3 * 18], "-300.000");
   EXPECT_EQ(rows[6].back(), "nan") << "the second was not there yet";
   EXPECT_EQ(rows[7][2], "nan") << "the first was lost";
@@ -177,7 +198,7 @@ TEST(TrcWriter, MarksCellsOfAFrameNotTrackedAsMissing) {
   const std::string text = Written(WriteTrc, TwoFrames(), "walk.trc");
   const auto rows = Cells(text, '\t');
   const std::vector<std::string>& row = rows[7];
-  ASSERT_EQ(row.size(), 2u + 3 * 23);
+  ASSERT_EQ(row.size(), 2u + 3 * 31);
   EXPECT_EQ(row[0], "2");
   EXPECT_EQ(row[1], "0.050000");
   EXPECT_THAT(std::vector(row.begin() + 2, row.end()), ::testing::Each("nan"));
@@ -212,6 +233,7 @@ TEST(CsvWriter, NamesEveryColumnWithItsUnitAndFillsIt) {
   EXPECT_EQ(cell(1, "probability"), "0.6250");
   EXPECT_EQ(cell(2, "torso_x_mm"), "");
   EXPECT_EQ(cell(2, "knee_angle_r_deg"), "");
+  EXPECT_EQ(cell(1, "ankle_angle_l_deg"), "") << "not known";
   EXPECT_EQ(cell(2, "knee_r_y_rad"), "");
   EXPECT_EQ(cell(2, "deviation_head_mm"), "");
   EXPECT_EQ(cell(2, "probability"), "");
