@@ -3,6 +3,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <vector>
 
 #include "core/body/body_sizes.h"
@@ -20,8 +21,8 @@ struct Capsule {
   double radius_b_mm = 0;
   double cloth_a_mm = 0;  ///< How far cloth hangs off it at each end.
   double cloth_b_mm = 0;
-  /// No further capsule continues beyond `b` in this direction: elbow, fingertips, forefoot.
-  bool ends_at_b = false;
+  /// Whether borders of silhouettes hold its core at a, in the middle and at b.
+  std::array<bool, 3> held = {true, true, true};
 };
 
 /// Builds the capsules of a body at the reference configuration, around the chain; reuses the

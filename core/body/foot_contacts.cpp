@@ -8,7 +8,7 @@ namespace {
 
 // Speeds are taken over about this time [s]: noise of a frame is no motion.
 constexpr double kSpeedTime_s = 0.02;
-constexpr ContactOdds kHeelOdds{4.86, -0.067, -1.07}, kToeOdds{5.03, -0.063, -1.70};
+constexpr ContactOdds kHeelOdds{4.08, -0.0481, -1.22}, kToeOdds{6.36, -0.1489, -1.46};
 
 double ShareOf(const ContactOdds& odds, const FootMotion& motion) {
   const double nats = odds.resting + odds.per_mm * motion.height_mm +

@@ -18,9 +18,10 @@ struct Stillness {
 };
 constexpr Stillness kStill{};
 // A foot that stands gives way by so much, comes down when contact is so likely, and leaves when it
-// is less likely than that.
+// is less likely than that. One that is found this far from its place has slid there: feet touch
+// the floor while they shuffle and pivot. Its place is a mean over some time.
 struct Standing {
-  double std_mm = 1, comes_down = 0.5, leaves = 0.2;
+  double std_mm = 1, comes_down = 0.5, leaves = 0.2, slid_mm = 35, mean_s = 0.5;
 };
 constexpr Standing kStanding{};
 
@@ -52,11 +53,11 @@ void SteadyPose::FollowStands(const BodyModel& body, const PoseState& pose,
       continue;
     }
     const Vector3 now_W = body.PlaceOf(kContactPoints[i], posture);
-    if (!stand) {
+    if (!stand || (now_W - stand->place_W).norm() > kStanding.slid_mm) {
       stand = {now_W, dt_s};
       continue;
     }
-    stand->lasts_s += dt_s;
+    stand->lasts_s = std::min(stand->lasts_s + dt_s, kStanding.mean_s);
     stand->place_W += dt_s / stand->lasts_s * (now_W - stand->place_W);
   }
 }

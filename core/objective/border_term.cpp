@@ -4,19 +4,6 @@
 
 namespace mocap {
 
-bool IsHeldByBorders(const Capsule& capsule, double share) {
-  switch (capsule.part) {
-    case BodyPart::kCalfL:
-    case BodyPart::kCalfR:
-      return !capsule.ends_at_b || share == 1;
-    case BodyPart::kLowerArmL:
-    case BodyPart::kLowerArmR:
-      return share > 0;
-    default:
-      return true;
-  }
-}
-
 void BorderTerm::SetEvidence(const Evidence& evidence, double pose_std_mm) {
   const bool tell = pose_std_mm <= kBorderNoise.inside_mm;
   noise_ = kBorderNoise.Widened(pose_std_mm);

@@ -35,17 +35,14 @@ class BorderTerm {
   ResidualNoise noise_ = kBorderNoise;
 };
 
-/// Only the toes of a foot are held: with heels, the error of feet on steps was 60 mm instead
-/// of 25. The elbow belongs to the upper arm, the wrist to the forearm.
-bool IsHeldByBorders(const Capsule& capsule, double share);
-
 template <typename Visit>
 void BorderTerm::ForEach(const PosedBody& posed, CapsuleSet capsules, const Visit& visit) const {
   for (int i = 0; i < std::ssize(posed.capsules()); ++i) {
     if (!(capsules >> i & 1)) continue;
     const PosedCapsule& capsule = posed.capsules()[i];
-    for (const double share : kCoreShares) {
-      if (!IsHeldByBorders(posed.body().shape()[i], share)) continue;
+    for (std::size_t place = 0; place < kCoreShares.size(); ++place) {
+      if (!posed.body().shape()[i].held[place]) continue;
+      const double share = kCoreShares[place];
       const Vector3 p_W = CorePlace(capsule, share);
       const double radius_mm = RadiusAt(capsule, share);
       for (const SilhouetteBorder& border : borders_)

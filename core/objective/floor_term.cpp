@@ -3,34 +3,41 @@
 namespace mocap {
 namespace {
 
-// Visits the ends that are below the floor: capsule, middle of the end, depth.
-template <typename Visit>
-void ForEachBelow(const PosedBody& posed, CapsuleSet capsules, const Visit& visit) {
-  for (int i = 0; i < std::ssize(posed.capsules()); ++i) {
-    if (!(capsules >> i & 1)) continue;
-    const PosedCapsule& capsule = posed.capsules()[i];
-    for (const double share : {0.0, 1.0}) {
-      const double depth_mm = DepthBelowFloor(capsule, share);
-      if (depth_mm > 0) visit(i, share == 0 ? capsule.a_W : capsule.b_W, depth_mm);
-    }
-  }
+/// How deep the lowest place at an end of a capsule is below the floor; above it negative.
+double DepthBelowFloor(const PosedCapsule& capsule, double share) {
+  return RadiusAt(capsule, share) - (share == 0 ? capsule.a_W : capsule.b_W).z();
 }
 
 }  // namespace
 
+// A foot has many ends, which are below the floor together: they say no more than one.
+std::array<LowestEnd, kBodyPartCount> EndsBelowFloor(const PosedBody& posed, CapsuleSet capsules) {
+  std::array<LowestEnd, kBodyPartCount> lowest;
+  for (int i = 0; i < std::ssize(posed.capsules()); ++i) {
+    if (!(capsules >> i & 1)) continue;
+    const PosedCapsule& capsule = posed.capsules()[i];
+    LowestEnd& end = lowest[static_cast<int>(posed.body().shape()[i].part)];
+    for (const double share : {0.0, 1.0}) {
+      const double depth_mm = DepthBelowFloor(capsule, share);
+      if (depth_mm > end.depth_mm) end = {i, share == 0 ? capsule.a_W : capsule.b_W, depth_mm};
+    }
+  }
+  return lowest;
+}
+
 double FloorTerm::At(const PosedBody& posed, CapsuleSet capsules) const {
   LogSum sum;
-  ForEachBelow(posed, capsules, [&](int, const Vector3&, double depth_mm) {
-    sum.Add(kFloorNoise.ScaledSquare(depth_mm));
-  });
-  return kFloorNoise.NatsOf(sum.Sum());
+  for (const LowestEnd& end : EndsBelowFloor(posed, capsules))
+    if (end.capsule >= 0) sum.Add(noise_.ScaledSquare(end.depth_mm));
+  return noise_.NatsOf(sum.Sum());
 }
 
 void FloorTerm::Linearize(const PosedBody& posed, CapsuleSet capsules, Linearisation& sums) const {
-  ForEachBelow(posed, capsules, [&](int i, const Vector3& p_W, double depth_mm) {
-    sums.chain.Add(posed.CarrierOf(i), p_W, Vector3::UnitZ(), depth_mm,
-                   kFloorNoise.VarianceAt(depth_mm));
-  });
+  for (const LowestEnd& end : EndsBelowFloor(posed, capsules)) {
+    if (end.capsule < 0) continue;
+    sums.chain.Add(posed.CarrierOf(end.capsule), end.middle_W, Vector3::UnitZ(), end.depth_mm,
+                   noise_.VarianceAt(end.depth_mm));
+  }
 }
 
 }  // namespace mocap

@@ -1,22 +1,34 @@
 // Nobody is below the floor, z = 0.
 #pragma once
 
+#include <array>
+
 #include "core/body/posed_body.h"
 #include "core/objective/noise.h"
 
 namespace mocap {
 
-/// How deep the lowest place at an end of a capsule is below the floor [mm]; above it negative.
-inline double DepthBelowFloor(const PosedCapsule& capsule, double share) {
-  return RadiusAt(capsule, share) - (share == 0 ? capsule.a_W : capsule.b_W).z();
-}
+/// The lowest end of a part of the body.
+struct LowestEnd {
+  int capsule = -1;  ///< -1: the part is above the floor.
+  Vector3 middle_W = Vector3::Zero();
+  double depth_mm = 0;  ///< How deep its flesh is below the floor.
+};
 
-/// -log p of flesh below the floor: the residual is the depth of the lowest place at each end of a
-/// capsule.
+/// Finds the lowest end of each part among these capsules, by BodyPart.
+std::array<LowestEnd, kBodyPartCount> EndsBelowFloor(const PosedBody& posed, CapsuleSet capsules);
+
+/// -log p of flesh below the floor: the residual is the depth of the lowest end of each part.
 class FloorTerm {
  public:
+  /// @param pose_std_mm  how far poses may be off.
+  explicit FloorTerm(double pose_std_mm = 0) : noise_(kFloorNoise.Widened(pose_std_mm)) {}
+
   double At(const PosedBody& posed, CapsuleSet capsules) const;
   void Linearize(const PosedBody& posed, CapsuleSet capsules, Linearisation& sums) const;
+
+ private:
+  ResidualNoise noise_;
 };
 
 }  // namespace mocap

@@ -25,10 +25,11 @@ inline constexpr ResidualNoise kFleshNoise{
 /// Depth of limbs within other parts.
 inline constexpr ResidualNoise kOverlapNoise{
     .freedom = 10.0, .inside_mm = 23, .outside_mm = 23, .alike = 1};
-/// Depth of flesh below the floor. At true poses of simulated people, whose soles are as thick as
-/// the body's, it is 2 mm; soles of other people are 10 to 25 mm thick.
+/// Depth of parts below the floor. At true poses of simulated people, whose soles are as thick as
+/// the body's, it is 2 mm; soles of other people are 10 to 25 mm thick. Parts that touch the floor,
+/// as those of somebody who lies, are too deep together.
 inline constexpr ResidualNoise kFloorNoise{
-    .freedom = 2.0, .inside_mm = 8, .outside_mm = 8, .alike = 2};
+    .freedom = 2.0, .inside_mm = 8, .outside_mm = 8, .alike = 4};
 
 /// A frame set has this many independent rays and voxels, however many are looked at. The benchmark
 /// finds 175 and 126 by parts of the body; ghosts of a hull are voxels that err alike all over.

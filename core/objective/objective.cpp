@@ -38,7 +38,7 @@ Fitness Objective::At(ComparedBody& part, const Things& things) {
   fitness[Term::kBorders] = borders_.At(posed, part.moving);
   fitness[Term::kFlesh] = flesh_.At(posed, part.moving & ~part.contacts.CarvedAway());
   fitness[Term::kOverlap] = OverlapTerm{}.At(posed, part.moving, part.present);
-  fitness[Term::kFloor] = FloorTerm{}.At(posed, part.moving);
+  fitness[Term::kFloor] = floor_.At(posed, part.moving);
   fitness[Term::kJoints] = JointNats(body.table(), posed.pose().theta);
   fitness[Term::kHabits] = HabitNats(body, posed.pose(), evidence_->toes_W);
   fitness.backwards = ShareBackwards(posed.pose(), evidence_->toes_W);
@@ -63,7 +63,7 @@ void Objective::Linearize(ComparedBody& part, const Things& things, UpdateEquati
   part.contacts.Linearize(posed, things, sums);
   borders_.Linearize(posed, part.moving, sums);
   flesh_.Linearize(posed, part.moving & ~part.contacts.CarvedAway(), sums);
-  FloorTerm{}.Linearize(posed, part.moving, sums);
+  floor_.Linearize(posed, part.moving, sums);
   chain_.AddTo(equations);
   OverlapTerm{}.Linearize(posed, part.moving, part.present, sums);
   LinearizeJoints(posed.body().table(), posed.pose(), equations);

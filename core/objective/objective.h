@@ -105,6 +105,7 @@ class Objective {
   const Evidence* evidence_ = nullptr;
   BorderTerm borders_;
   FleshTerm flesh_;
+  FloorTerm floor_{options_.pose_std_mm};
   ComparedBody whole_;
   ChainEquations chain_;
   std::vector<SurfaceResidual> residuals_;

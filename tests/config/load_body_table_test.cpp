@@ -136,8 +136,10 @@ TEST(BodyTables, LeftAndRightMirrorEachOther) {
           std::find_if(table.joints.begin(), table.joints.end(),
                        [&other](const JointAxis& joint) { return joint.name == other; });
       ASSERT_NE(right, table.joints.end()) << other;
-      EXPECT_EQ(right->axis_T, left.axis_T);
-      const bool same_sign = left.axis_T == Vector3::UnitY();
+      // Axes are pseudovectors: a mirror keeps the part along its normal.
+      const Vector3 mirrored(-left.axis_T.x(), left.axis_T.y(), -left.axis_T.z());
+      const bool same_sign = right->axis_T == mirrored;
+      EXPECT_TRUE(same_sign || right->axis_T == -mirrored) << other;
       EXPECT_DOUBLE_EQ(right->min_rad, same_sign ? left.min_rad : -left.max_rad) << other;
       EXPECT_DOUBLE_EQ(right->max_rad, same_sign ? left.max_rad : -left.min_rad) << other;
       EXPECT_DOUBLE_EQ(right->rest_rad, same_sign ? left.rest_rad : -left.rest_rad) << other;

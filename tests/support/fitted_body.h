@@ -19,8 +19,9 @@ class FittedBody : public ::testing::Test {
   PoseState Standing(const BodyModel& body, const Stance& stance) const {
     PoseState pose;
     pose.X_WT.R = ExpRotation(Vector3(0, 0, 0.4));
-    pose.X_WT.p = Vector3(50, -30, StandingHeight(body.sizes()));
+    pose.X_WT.p = Vector3(50, -30, 0);
     pose.theta = AnglesOf(stance, body.table());
+    PutOnFloor(body, pose);
     return pose;
   }
   PoseState Standing(const Stance& stance) const { return Standing(body_, stance); }

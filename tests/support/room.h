@@ -38,12 +38,13 @@ class Room : public ::testing::Test {
     const BodyModel body(table_, AverageSizes(stature_mm));
     const double swing = std::sin(0.2 * frame);
     PoseState pose;
-    pose.X_WT.p = Vector3(x_mm, y_mm, StandingHeight(body.sizes()));
+    pose.X_WT.p = Vector3(x_mm, y_mm, 0);
     const ArmStance arm_l{.raise = -70, .forward = 20 * swing, .elbow = 25};
     const ArmStance arm_r{.raise = -70, .forward = -20 * swing, .elbow = 25};
     const LegStance leg_l{.hip = -20 * swing, .knee = 15};
     const LegStance leg_r{.hip = 20 * swing, .knee = 15};
     pose.theta = AnglesOf({arm_l, arm_r, leg_l, leg_r}, table_);
+    PutOnFloor(body, pose);
     return {body, pose};
   }
 

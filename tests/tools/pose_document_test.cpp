@@ -82,7 +82,8 @@ TEST(PoseDocument, ListsTheJointsAsTheyAre) {
   const BodyModel body = GrownBody();
   std::string expected;
   for (const JointAxis& joint : body.table().joints) {
-    const char axis = "xyz"[std::ranges::max_element(joint.axis_T) - joint.axis_T.begin()];
+    const auto along = [](double a, double b) { return std::abs(a) < std::abs(b); };
+    const char axis = "xyz"[std::ranges::max_element(joint.axis_T, along) - joint.axis_T.begin()];
     const std::string column =
         joint.paper_angle > 0 ? PaperAngleColumn(joint.paper_angle) : JointColumn(joint.name);
     const std::string row =

@@ -123,11 +123,10 @@ void AddOverlaps(const PosedBody& posed, ResidualGroups& groups) {
   }
 }
 
-// Likewise the depths of flesh below the floor.
+// Likewise the depths of all parts below the floor, as one group.
 void AddFloor(const PosedBody& posed, ResidualGroups& groups) {
-  for (int i = 0; i < std::ssize(posed.capsules()); ++i)
-    for (const double share : {0.0, 1.0})
-      groups.Add(NoiseKind::kFloor, i, std::max(0.0, DepthBelowFloor(posed.capsules()[i], share)));
+  for (const LowestEnd& end : EndsBelowFloor(posed, ~CapsuleSet{0}))
+    groups.Add(NoiseKind::kFloor, 0, end.depth_mm);
 }
 
 class ResidualKeeper : public PoseSink {

@@ -70,13 +70,19 @@ void AddCurves(std::span<const TimedCoordinates> frames, std::span<const Stride>
       curves.push_back(CurveOf(kCoordinateNames[i], side, count, sums[i]));
 }
 
+// Someone who turns on the way has the same gait: the pelvis is in the walker's frame.
+Coordinates InWalkersFrame(BodyAngles angles) {
+  angles.pelvis = angles.walker_pelvis;
+  return CoordinatesOf(angles);
+}
+
 }  // namespace
 
 std::vector<CycleCurve> CurvesOf(std::span<const BodyAngles> angles, std::int64_t start_ns,
                                  std::span<const Stride> strides) {
   std::vector<TimedCoordinates> frames;
   for (const BodyAngles& one : angles)
-    frames.push_back({static_cast<double>(one.time_ns - start_ns) * 1e-9, CoordinatesOf(one)});
+    frames.push_back({static_cast<double>(one.time_ns - start_ns) * 1e-9, InWalkersFrame(one)});
   std::vector<CycleCurve> curves;
   if (frames.empty()) return curves;
   for (const Side side : {Side::kLeft, Side::kRight}) AddCurves(frames, strides, side, curves);

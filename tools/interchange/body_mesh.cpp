@@ -34,9 +34,11 @@ SkeletonJoint JointOf(const Capsule& capsule, const BodyTable& table) {
     case BodyPart::kThighR:
       return kRightUpLeg;
     case BodyPart::kCalfL:
-      return is_carried_by(Segment::kCalfL) ? kLeftLeg : kLeftFoot;
+      if (is_carried_by(Segment::kCalfL)) return kLeftLeg;
+      return is_carried_by(Segment::kFootL) ? kLeftFoot : kLeftToe;
     case BodyPart::kCalfR:
-      return is_carried_by(Segment::kCalfR) ? kRightLeg : kRightFoot;
+      if (is_carried_by(Segment::kCalfR)) return kRightLeg;
+      return is_carried_by(Segment::kFootR) ? kRightFoot : kRightToe;
     case BodyPart::kTorso:
       break;
   }

@@ -27,7 +27,7 @@ FootAngles FootAnglesOf(const Matrix3& R_ShinFoot) {
     angles += step;
     if (step.norm() < kSmallStep_rad) break;
   }
-  return {angles[0], angles[1], AnglesZxy(R_ShinFoot)};
+  return {.ankle = angles[0], .subtalar = angles[1], .about_shin = AnglesZxy(R_ShinFoot)};
 }
 
 }  // namespace mocap

@@ -13,6 +13,7 @@ struct FootAngles {
 
   /// About the slanting axes of Rajagopal's model (2016): toes up, and the sole inward.
   double ankle = kUnknown, subtalar = kUnknown;
+  double toes = kUnknown;  ///< Up against the foot.
   /// About the shin's axes z, x and y: toes up, the sole inward, toes inward.
   Vector3 about_shin = Vector3::Constant(kUnknown);
 };

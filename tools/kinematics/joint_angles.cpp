@@ -130,10 +130,13 @@ LimbAngles AnglesIn(const Turns& turns, double side) {
 
 FootAngles FootOf(const PosedSegments& posed, const PoseRow& row, const Limb& leg) {
   if (!Shows(row, leg.last)) return {};
-  const Vector3 mirror(1, 1, leg.side);
-  return FootAnglesOf(mirror.asDiagonal() *
-                      (SimAxesOf(posed, leg.lower).transpose() * SimAxesOf(posed, leg.tip)) *
-                      mirror.asDiagonal());
+  const Matrix3 mirror = Vector3(1, 1, leg.side).asDiagonal();
+  const Matrix3 R_WFoot = SimAxesOf(posed, leg.tip);
+  FootAngles angles =
+      FootAnglesOf(mirror * SimAxesOf(posed, leg.lower).transpose() * R_WFoot * mirror);
+  const Segment toes = leg.tip == Segment::kFootL ? Segment::kToesL : Segment::kToesR;
+  angles.toes = AnglesZxy(R_WFoot.transpose() * SimAxesOf(posed, toes))[0];
+  return angles;
 }
 
 /// @param turns  of the arm: the forearm's axes follow from them, as in the model.
@@ -234,20 +237,20 @@ std::array<double, kCoordinateNames.size()> CoordinatesOf(const BodyAngles& angl
     add({limb.flexion, limb.adduction, limb.rotation});
     *next++ = limb.bend;
   };
-  const auto add_two = [&](double one, double other) {
-    *next++ = one;
-    *next++ = other;
+  const auto add_hand = [&](const HandAngles& hand) {
+    *next++ = hand.flexion;
+    *next++ = hand.deviation;
   };
   add(angles.pelvis);
   add_limb(angles.leg_r);
-  add_two(angles.foot_r.ankle, angles.foot_r.subtalar);
+  add({angles.foot_r.ankle, angles.foot_r.subtalar, angles.foot_r.toes});
   add_limb(angles.leg_l);
-  add_two(angles.foot_l.ankle, angles.foot_l.subtalar);
+  add({angles.foot_l.ankle, angles.foot_l.subtalar, angles.foot_l.toes});
   add(angles.lumbar);
   add_limb(angles.arm_r);
-  add_two(angles.hand_r.flexion, angles.hand_r.deviation);
+  add_hand(angles.hand_r);
   add_limb(angles.arm_l);
-  add_two(angles.hand_l.flexion, angles.hand_l.deviation);
+  add_hand(angles.hand_l);
   return values;
 }
 

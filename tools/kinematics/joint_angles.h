@@ -43,13 +43,15 @@ struct BodyAngles {
 };
 
 /// The coordinates of Rajagopal's model that BodyAngles has, in the order of the model.
-inline constexpr std::array<std::string_view, 30> kCoordinateNames = {
-    "pelvis_tilt",      "pelvis_list",    "pelvis_rotation", "hip_flexion_r",    "hip_adduction_r",
-    "hip_rotation_r",   "knee_angle_r",   "ankle_angle_r",   "subtalar_angle_r", "hip_flexion_l",
-    "hip_adduction_l",  "hip_rotation_l", "knee_angle_l",    "ankle_angle_l",    "subtalar_angle_l",
-    "lumbar_extension", "lumbar_bending", "lumbar_rotation", "arm_flex_r",       "arm_add_r",
-    "arm_rot_r",        "elbow_flex_r",   "wrist_flex_r",    "wrist_dev_r",      "arm_flex_l",
-    "arm_add_l",        "arm_rot_l",      "elbow_flex_l",    "wrist_flex_l",     "wrist_dev_l"};
+inline constexpr std::array<std::string_view, 32> kCoordinateNames = {
+    "pelvis_tilt",      "pelvis_list",      "pelvis_rotation", "hip_flexion_r",
+    "hip_adduction_r",  "hip_rotation_r",   "knee_angle_r",    "ankle_angle_r",
+    "subtalar_angle_r", "mtp_angle_r",      "hip_flexion_l",   "hip_adduction_l",
+    "hip_rotation_l",   "knee_angle_l",     "ankle_angle_l",   "subtalar_angle_l",
+    "mtp_angle_l",      "lumbar_extension", "lumbar_bending",  "lumbar_rotation",
+    "arm_flex_r",       "arm_add_r",        "arm_rot_r",       "elbow_flex_r",
+    "wrist_flex_r",     "wrist_dev_r",      "arm_flex_l",      "arm_add_l",
+    "arm_rot_l",        "elbow_flex_l",     "wrist_flex_l",    "wrist_dev_l"};
 
 /// The value of each coordinate [rad]; NaN: not known.
 std::array<double, kCoordinateNames.size()> CoordinatesOf(const BodyAngles& angles);

@@ -12,7 +12,7 @@ struct AimedSegment {
   Point joint, target;
 };
 
-constexpr std::array<AimedSegment, 15> kAimedSegments = {{
+constexpr std::array<AimedSegment, 17> kAimedSegments = {{
     {Segment::kHead, Segment::kTorso, Point::kNeck, Point::kHead},
     {Segment::kShoulderL, Segment::kTorso, Point::kClavicleL, Point::kShoulderL},
     {Segment::kUpperArmL, Segment::kShoulderL, Point::kShoulderL, Point::kElbowL},
@@ -25,16 +25,18 @@ constexpr std::array<AimedSegment, 15> kAimedSegments = {{
     {Segment::kThighL, Segment::kPelvis, Point::kHipL, Point::kKneeL},
     {Segment::kCalfL, Segment::kThighL, Point::kKneeL, Point::kFootL},
     {Segment::kFootL, Segment::kCalfL, Point::kAnkleL, Point::kBallL},
+    {Segment::kToesL, Segment::kFootL, Point::kBallL, Point::kToeL},
     {Segment::kThighR, Segment::kPelvis, Point::kHipR, Point::kKneeR},
     {Segment::kCalfR, Segment::kThighR, Point::kKneeR, Point::kFootR},
     {Segment::kFootR, Segment::kCalfR, Point::kAnkleR, Point::kBallR},
+    {Segment::kToesR, Segment::kFootR, Point::kBallR, Point::kToeR},
 }};
 
 /// The segment that carries each point that follows the 23; a joint's point, the one before it.
 constexpr std::array<Segment, kFurtherPointCount> kBeforePoint = {
     Segment::kTorso, Segment::kTorso, Segment::kLowerArmL, Segment::kLowerArmR, Segment::kCalfL,
     Segment::kCalfR, Segment::kFootL, Segment::kFootR,     Segment::kFootL,     Segment::kFootR,
-    Segment::kFootL, Segment::kFootR, Segment::kHandL,     Segment::kHandR};
+    Segment::kToesL, Segment::kToesR, Segment::kHandL,     Segment::kHandR};
 
 /// Places the points that a row does not have.
 void PlaceMissing(Segment segment, Point joint, const BodyPlaces& rest_T, PosedSegments& posed) {

@@ -32,11 +32,11 @@ inline constexpr std::array<HumanoidBone, 21> kHumanoid = {{
     {"LeftUpperLeg", 0, Segment::kThighL},
     {"LeftLowerLeg", 13, Segment::kCalfL},
     {"LeftFoot", 14, Segment::kFootL},
-    {"LeftToes", 15, Segment::kFootL},
+    {"LeftToes", 15, Segment::kToesL},
     {"RightUpperLeg", 0, Segment::kThighR},
     {"RightLowerLeg", 17, Segment::kCalfR},
     {"RightFoot", 18, Segment::kFootR},
-    {"RightToes", 19, Segment::kFootR},
+    {"RightToes", 19, Segment::kToesR},
 }};
 
 /// Transforms from each bone to its parent, in the studio's axes: x forward, y left, z up [mm]. In
@@ -45,7 +45,7 @@ using HumanoidPose = std::array<RigidTransform, kHumanoid.size()>;
 
 /// Computes the bones of a pose. Hips is the middle of the hip joints. Spine is the torso's
 /// centroid, about which a waist turns. Chest is halfway from there to the next joint, Head halfway
-/// from the neck to its end. All other bones are at their joints. Toes do not turn.
+/// from the neck to its end. All other bones are at their joints.
 HumanoidPose HumanoidPoseOf(const BodyModel& body, const PoseState& pose);
 
 }  // namespace mocap

@@ -77,20 +77,23 @@ TEST_F(SteadyPoseTest, AHandThatStartsIsFollowedAtOnceAndTheRestStays) {
   EXPECT_LT(moved_mm(Point::kFootL), 8);
 }
 
-TEST_F(SteadyPoseTest, AFootThatStandsDoesNotSlideWhileTheBodyWalksOn) {
+TEST_F(SteadyPoseTest, AFootThatStandsStaysWhereTheOtherFollows) {
   Contacts left_stands;
   left_stands << 1, 0, 1, 0;
   const auto toe_W = [&](Point toe, const PoseState& pose) {
     return body_.PlaceOf(toe, body_.PostureAt(pose));
   };
   PoseState pose = Rest();
-  PoseState first = Follow(pose, left_stands), last = first;
-  for (int i = 0; i < 6; ++i) {
-    pose.X_WT.p.x() += 20;
-    last = Follow(pose, left_stands);
+  for (int i = 0; i < 30; ++i) Follow(pose, left_stands);
+  const PoseState first = Follow(pose, left_stands);
+  // Both legs swing alike.
+  for (int j = 0; j < pose.theta.size(); ++j) {
+    const std::string& name = body_.table().joints[j].name;
+    if (name == "hip_l_y" || name == "hip_r_y") pose.theta[j] -= 0.033;
   }
+  const PoseState last = Follow(pose, left_stands);
   const auto way_mm = [&](Point toe) { return (toe_W(toe, last) - toe_W(toe, first)).norm(); };
-  EXPECT_GT(way_mm(Point::kToeR), 80);
+  EXPECT_GT(way_mm(Point::kToeR), 10);
   EXPECT_LT(way_mm(Point::kToeL), 0.5 * way_mm(Point::kToeR));
 }
 

@@ -1,7 +1,10 @@
 #include "core/objective/border_term.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <string_view>
 #include <vector>
 
 #include "tests/support/fitted_body.h"
@@ -9,6 +12,8 @@
 
 namespace mocap {
 namespace {
+
+using ::testing::ElementsAre;
 
 constexpr CapsuleSet kAllCapsules = ~CapsuleSet{0};
 
@@ -73,14 +78,17 @@ TEST_F(BorderTermTest, OfSomeCapsulesIsAPartOfTheWhole) {
 }
 
 TEST_F(BorderTermTest, HeelsAndElbowsAreNotHeldTwice) {
-  Capsule capsule{.part = BodyPart::kCalfL, .ends_at_b = true};
-  EXPECT_FALSE(IsHeldByBorders(capsule, 0)) << "the heel";
-  EXPECT_TRUE(IsHeldByBorders(capsule, 1)) << "the toes";
-  capsule.part = BodyPart::kLowerArmR;
-  EXPECT_FALSE(IsHeldByBorders(capsule, 0)) << "the elbow";
-  EXPECT_TRUE(IsHeldByBorders(capsule, 0.5));
-  capsule.part = BodyPart::kTorso;
-  EXPECT_TRUE(IsHeldByBorders(capsule, 0));
+  const auto held = [this](std::string_view joint) {
+    const auto capsule = std::ranges::find_if(body_.shape(), [&](const Capsule& one) {
+      return one.carrier >= 0 && body_.table().joints[one.carrier].name == joint;
+    });
+    return capsule->held;
+  };
+  EXPECT_THAT(held("elbow_r_z"), ElementsAre(false, true, true));
+  EXPECT_THAT(held("subtalar_l_x"), ElementsAre(false, false, false));
+  EXPECT_THAT(held("toes_l_y"), ElementsAre(true, false, true));
+  EXPECT_THAT(held("knee_l_y"), ElementsAre(true, true, true));
+  EXPECT_TRUE(body_.shape().front().held[0]) << "the torso";
 }
 
 }  // namespace

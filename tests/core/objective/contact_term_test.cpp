@@ -49,7 +49,7 @@ class ContactTermTest : public FittedBody {
   }
 
   const PoseState truth_ = Standing({.arm_l = kArmOut, .leg_r = kStep});
-  const PoseState pose_ = Off(truth_, 0.5);
+  const PoseState pose_ = Off(truth_, 0.45);
 };
 
 TEST_F(ContactTermTest, OfTheSurfaceDescendsWhatItCosts) { ExpectLinearised(250, 0, 1e-4); }

@@ -24,9 +24,9 @@ class ObjectiveTest : public FittedBody {
 TEST_F(ObjectiveTest, DrawsTheBodyToTheTruth) {
   const PoseState truth = Standing({.arm_l = kArmOut, .leg_r = kStep});
   See(truth);
-  const PoseState start = Off(truth);
+  const PoseState start = Off(truth, 0.5);
   EXPECT_GT(Error(start, truth), 40);
-  EXPECT_LT(Error(FitFrom(start), truth), 15);
+  EXPECT_LT(Error(FitFrom(start), truth), 6);
   EXPECT_LT(At(truth).Sum(), 0.5 * At(start).Sum());
 }
 
@@ -148,9 +148,10 @@ TEST_F(ObjectiveTest, CountsItsEvaluationsByTheirExtent) {
   See(Standing({}));
   const double before = objective_.evaluations();
   At(Standing({}));
-  EXPECT_DOUBLE_EQ(objective_.evaluations() - before, 1);
+  // A contact more or less is spread evenly over what there is.
+  EXPECT_NEAR(objective_.evaluations() - before, 1, 0.002);
   GradientAt(Standing({}));
-  EXPECT_DOUBLE_EQ(objective_.evaluations() - before, 2);
+  EXPECT_NEAR(objective_.evaluations() - before, 2, 0.004);
   Objective coarse({.voxels = 125, .rays = 300});
   coarse.SetEvidence(evidence_);
   coarse.At(body_, Standing({}), {});

@@ -20,8 +20,9 @@ class Division : public ::testing::Test {
   PosedPerson At(double x_mm, double stature_mm) const {
     const BodyModel body(table_, AverageSizes(stature_mm));
     PoseState pose;
-    pose.X_WT.p = Vector3(x_mm, 0, StandingHeight(body.sizes()));
+    pose.X_WT.p.x() = x_mm;
     pose.theta = AnglesOf(Stance{}, table_);
+    PutOnFloor(body, pose);
     PosedPerson person;
     PosePerson(body, pose, kReachMm, person);
     return person;
@@ -87,7 +88,7 @@ class Division : public ::testing::Test {
 };
 
 TEST_F(Division, StrangersWhoTouchAreToldApart) {
-  const auto seen = Carve({At(-200, 1850), At(200, 1650)});
+  const auto seen = Carve({At(-195, 1850), At(195, 1650)});
   VoxelPieces pieces;
   pieces.Find(seen.hull);
   ASSERT_EQ(pieces.sizes().size(), 1u);

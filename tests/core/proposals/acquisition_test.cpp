@@ -28,7 +28,9 @@ class Acquisition : public ::testing::Test {
     return pose;
   }
   PoseState Upright(const BodySizes& sizes, const Stance& stance) const {
-    return Pose(StandingHeight(sizes), stance);
+    PoseState pose = Pose(0, stance);
+    PutOnFloor(BodyModel(body_.table(), sizes), pose);
+    return pose;
   }
   /// Looks for whoever is there, and measures for some frames more.
   void Find(const BodyModel& body, const PoseState& truth, int frames) {

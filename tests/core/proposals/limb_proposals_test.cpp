@@ -18,6 +18,12 @@ class Proposed : public FittedBody {
     return Error(FitFrom(*std::ranges::min_element(poses_, {}, nats)), truth);
   }
   Hypothesis Unfitted(const PoseState& pose) const { return {body_, pose, false}; }
+  /// Somebody who stands, but has the torso where it truly is.
+  Hypothesis Upright(const PoseState& truth) const {
+    PoseState pose = Standing({});
+    pose.X_WT = truth.X_WT;
+    return Unfitted(pose);
+  }
 
   static constexpr ArmStance kRaised{.raise = 30, .forward = 30, .elbow = 60};
   static constexpr LegStance kAhead{.hip = 45, .spread = 5, .knee = 20};
@@ -29,7 +35,7 @@ class Proposed : public FittedBody {
 TEST_F(Proposed, ALostArmIsWhereTheEvidenceIs) {
   const PoseState truth = Standing({.arm_l = kRaised});
   See(truth);
-  proposals_.Elsewhere(objective_, Unfitted(Standing({})), Segment::kHandL, poses_);
+  proposals_.Elsewhere(objective_, Upright(truth), Segment::kHandL, poses_);
   ASSERT_FALSE(poses_.empty());
   EXPECT_LT(Error(FitFrom(poses_.front()), truth), 15) << "the first is the best";
 }
@@ -37,7 +43,7 @@ TEST_F(Proposed, ALostArmIsWhereTheEvidenceIs) {
 TEST_F(Proposed, ALostLegIsWhereTheEvidenceIs) {
   const PoseState truth = Standing({.leg_r = {.hip = 60, .knee = 60}});
   See(truth);
-  proposals_.Elsewhere(objective_, Unfitted(Standing({})), Segment::kFootR, poses_);
+  proposals_.Elsewhere(objective_, Upright(truth), Segment::kToesR, poses_);
   ASSERT_FALSE(poses_.empty());
   EXPECT_LT(BestError(truth), 15);
 }
@@ -61,7 +67,7 @@ TEST_F(Proposed, OnlyTheLimbDiffersAndItsEndIsElsewhere) {
 TEST_F(Proposed, BothLegsOfAStrideAreFound) {
   const PoseState truth = Standing({.leg_l = kAhead, .leg_r = kBehind});
   See(truth);
-  proposals_.Both(objective_, Unfitted(Standing({})), kLimbPairs[1], poses_);
+  proposals_.Both(objective_, Upright(truth), kLimbPairs[1], poses_);
   ASSERT_FALSE(poses_.empty());
   EXPECT_LT(BestError(truth), 15);
 }
@@ -70,7 +76,7 @@ TEST_F(Proposed, BothArmsBeforeTheChestAreFound) {
   constexpr ArmStance kBeforeChest{.forward = 40, .elbow = 90};
   const PoseState truth = Standing({.arm_l = kBeforeChest, .arm_r = kBeforeChest});
   See(truth);
-  proposals_.Both(objective_, Unfitted(Standing({})), kLimbPairs[0], poses_);
+  proposals_.Both(objective_, Upright(truth), kLimbPairs[0], poses_);
   EXPECT_LT(BestError(truth), 15);
 }
 

@@ -14,8 +14,10 @@ class Search : public FittedBody {
   }
 
   /// Somebody in a hat with a broad brim.
-  Evidence WithHat() const {
-    const Posture posture = body_.PostureAt(Standing({}));
+  Evidence WithHat(double x_mm = 50) const {
+    PoseState pose = Standing({});
+    pose.X_WT.p.x() = x_mm;
+    const Posture posture = body_.PostureAt(pose);
     std::vector<PosedCapsule> flesh;
     body_.PoseShape(posture, flesh);
     const Vector3 brim_W =
@@ -31,7 +33,7 @@ class Search : public FittedBody {
 };
 
 TEST_F(Search, FindsAPersonOfKnownSizesTheBestFirst) {
-  const PoseState truth = Standing({.arm_l = {.raise = 0}});
+  const PoseState truth = Standing({.arm_l = kArmOut});
   See(truth);
   const std::vector<StanceCandidate>& found = Find();
   ASSERT_GT(found.size(), 1u);
@@ -65,9 +67,14 @@ TEST_F(Search, KeepsTheBestOfTheFrameBeforeWhereThereIsLittleTime) {
 }
 
 TEST_F(Search, FindsWhatSomebodyWearsIfThatMayBe) {
-  See(WithHat());
-  EXPECT_TRUE(Find().front().things.test(static_cast<int>(Thing::kHat)));
-  EXPECT_TRUE(Find({1, Things{}}).front().things.none());
+  int hats = 0;
+  for (const double x_mm : {-100, -50, 0, 50, 100}) {
+    See(WithHat(x_mm));
+    search_.StartOver();
+    hats += Find().front().things.test(static_cast<int>(Thing::kHat));
+    EXPECT_TRUE(Find({1, Things{}}).front().things.none());
+  }
+  EXPECT_GE(hats, 4);
 }
 
 // What no part explains may be a stray blob of a silhouette.

@@ -154,7 +154,7 @@ class StreamTest(unittest.TestCase):
             while LAST_BONE not in heard:
                 heard += udp.recv(65536)
         self.assertEqual(heard.count(b"/VMC/Ext/Root/Pos\0"), 1)
-        self.assertEqual(heard.count(b"/VMC/Ext/Bone/Pos\0"), 19)
+        self.assertEqual(heard.count(b"/VMC/Ext/Bone/Pos\0"), 21)
 
     def test_a_log_reads_as_mocap_export_reads_it(self):
         with tempfile.TemporaryDirectory() as folder:

@@ -17,10 +17,8 @@
 namespace mocap {
 namespace {
 
-using ::testing::Each;
 using ::testing::ElementsAre;
 using ::testing::ElementsAreArray;
-using ::testing::IsNan;
 using testing::StillCapture;
 
 class DetailsTest : public ::testing::Test {
@@ -31,6 +29,10 @@ class DetailsTest : public ::testing::Test {
     result_.pose.theta = JointAngles::LinSpaced(body_.joint_count(), 0.1, 0.2);
     result_.points_W = body_.PointsAt(body_.PostureAt(result_.pose));
     result_.point_std_mm.setConstant(4.5);
+    result_.further_W = body_.FurtherPointsAt(body_.PostureAt(result_.pose));
+    result_.further_std_mm.setConstant(6.5);
+    result_.joint_std_rad = JointAngles::Constant(body_.joint_count(), 0.05);
+    result_.contacts << 0.9, 0.8, 0.2, 0.1;
     result_.probability = 0.75;
     result_.rival = RivalPose{0.2, result_.points_W.array() + 1};
   }
@@ -65,6 +67,7 @@ TEST_F(DetailsTest, TellHowSureThePoseOfEachPersonIs) {
   CaptureResult other = result_;
   other.probability.reset();
   other.rival.reset();
+  other.contacts = kUnknownContacts;
   const StillCapture second(body_, other);
   Publish(std::array{PersonView{2, &first}, PersonView{5, &second}});
   ASSERT_EQ(heard_.size(), 2u);
@@ -75,13 +78,14 @@ TEST_F(DetailsTest, TellHowSureThePoseOfEachPersonIs) {
   EXPECT_EQ(details.place, 0);
   EXPECT_EQ(details.state, int{pose_t::TRACKING});
   EXPECT_EQ(details.probability, 0.75);
-  EXPECT_EQ(details.num_contacts, 0);
+  EXPECT_EQ(details.num_contacts, kContactCount);
   EXPECT_EQ(details.rival_probability, 0.2);
   ASSERT_EQ(details.num_rival_points, kPointCount);
   EXPECT_EQ(details.rival_point_mm[22][2], result_.points_W(2, 22) + 1);
   EXPECT_EQ(heard_[1].person, 5);
   EXPECT_EQ(heard_[1].place, 1);
   EXPECT_TRUE(std::isnan(heard_[1].probability)) << "this tracker cannot tell";
+  EXPECT_EQ(heard_[1].num_contacts, 0);
   EXPECT_EQ(heard_[1].rival_probability, 0);
   EXPECT_TRUE(heard_[1].rival_point_mm.empty());
 }
@@ -91,14 +95,23 @@ TEST_F(DetailsTest, HavePointsAndJointsByTheirNames) {
   Publish(std::array{PersonView{1, &capture}});
   ASSERT_EQ(heard_.size(), 1u);
   const person_details_t& details = heard_[0];
-  ASSERT_EQ(details.num_points, kPointCount);
-  EXPECT_THAT(details.point_name, ElementsAreArray(kPointNames));
+  ASSERT_EQ(details.num_points, kPlaceCount);
+  for (int i = 0; i < kPointCount; ++i) {
+    EXPECT_EQ(details.point_name[i], kPointNames[i]);
+    EXPECT_EQ(details.point_std_mm[i], 4.5);
+  }
   EXPECT_EQ(details.point_mm[22][2], result_.points_W(2, 22));
-  EXPECT_THAT(details.point_std_mm, Each(4.5));
+  for (int i = 0; i < kFurtherPointCount; ++i) {
+    EXPECT_EQ(details.point_name[kPointCount + i], kFurtherPointNames[i]);
+    EXPECT_EQ(details.point_mm[kPointCount + i][1], result_.further_W(1, i));
+    EXPECT_EQ(details.point_std_mm[kPointCount + i], result_.further_std_mm[i]);
+  }
+  EXPECT_THAT(details.contact_name, ElementsAreArray(kContactNames));
+  EXPECT_THAT(details.contact, ElementsAreArray(result_.contacts));
   ASSERT_EQ(details.num_joints, body_.joint_count());
   EXPECT_EQ(details.joint_name[2], body_.table().joints[2].name);
   EXPECT_THAT(details.joint_rad, ElementsAreArray(result_.pose.theta));
-  EXPECT_THAT(details.joint_std_rad, Each(IsNan()));
+  EXPECT_THAT(details.joint_std_rad, ElementsAreArray(result_.joint_std_rad));
 }
 
 TEST_F(DetailsTest, HoldNoNumbersWhileSearching) {

@@ -213,6 +213,8 @@ TEST(Gait, ACurveHasTheMeanAndSpreadOfItsStrides) {
   for (std::size_t i = 0; i < angles.size(); ++i) {
     angles[i].time_ns = static_cast<std::int64_t>(i) * 50'000'000;
     angles[i].leg_l.bend = i < 21 ? 0.1 : 0.3;
+    angles[i].pelvis = Vector3(0.5, 0.5, 0.5);
+    angles[i].walker_pelvis = Vector3(0.05, 0, 0);
   }
   std::vector<Stride> strides(2);
   strides[0] = {.side = Side::kLeft, .begin_s = 0, .end_s = 1};
@@ -223,6 +225,7 @@ TEST(Gait, ACurveHasTheMeanAndSpreadOfItsStrides) {
   EXPECT_EQ(knee->strides, 2);
   EXPECT_NEAR(knee->mean_deg[50], 0.2 * kDegreesPerRad, 1e-9);
   EXPECT_NEAR(knee->spread_deg[50], std::sqrt(0.02) * kDegreesPerRad, 1e-9);
+  EXPECT_NEAR(curves.front().mean_deg[50], 0.05 * kDegreesPerRad, 1e-9) << curves.front().angle;
   for (const CycleCurve& curve : curves) EXPECT_FALSE(curve.angle.ends_with("_r")) << curve.angle;
 }
 

@@ -52,8 +52,8 @@ const std::map<std::string, Segment>& Segments() {
                                                           {"RightLeg", Segment::kCalfR},
                                                           {"LeftFoot", Segment::kFootL},
                                                           {"RightFoot", Segment::kFootR},
-                                                          {"LeftToe", Segment::kFootL},
-                                                          {"RightToe", Segment::kFootR}};
+                                                          {"LeftToe", Segment::kToesL},
+                                                          {"RightToe", Segment::kToesR}};
   return segments;
 }
 
@@ -87,7 +87,8 @@ TEST(BvhWriter, FeetAndHeadTurnToTheirSide) {
   Turn(body, "neck_x", 20, pose);
   const auto places = PlacesAt(WrittenBvh(ResultOf(body, pose)), 0);
   EXPECT_GT(places.at("LeftToe_end").x(), places.at("LeftFoot").x() + 8) << "turned out";
-  EXPECT_NEAR(places.at("RightToe_end").x(), places.at("RightFoot").x(), 0.01);
+  // The ankle's axis is oblique.
+  EXPECT_NEAR(places.at("RightToe_end").x(), places.at("RightFoot").x(), 3);
   EXPECT_LT(places.at("RightToe_end").y(), places.at("LeftToe_end").y() - 8) << "toes down";
   EXPECT_LT(places.at("Head_end").x(), places.at("Neck").x() - 5) << "to the right shoulder";
 }

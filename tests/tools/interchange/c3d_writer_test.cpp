@@ -182,8 +182,9 @@ TEST(C3dWriter, AnglesHaveTheSignsOfPlugInGait) {
     double degrees;
     Vector3 wanted;
   };
-  const Case cases[] = {{"ankle_l_y", "LAnkleAngles", 20, {-20, 0, 0}},
-                        {"ankle_r_y", "RAnkleAngles", -15, {15, 0, 0}},
+  // The ankle's axis is oblique.
+  const Case cases[] = {{"ankle_l_y", "LAnkleAngles", 20, {-19.6390, 1.4693, 3.7694}},
+                        {"ankle_r_y", "RAnkleAngles", -15, {14.6511, -1.8903, -2.3819}},
                         {"wrist_l_x", "LWristAngles", 20, {-20, 0, 0}},
                         {"wrist_r_x", "RWristAngles", 20, {20, 0, 0}},
                         {"wrist_l_z", "LWristAngles", -20, {0, -20, 0}},

@@ -88,13 +88,15 @@ TEST(Result, HasTheContractsColumns) {
               StartsWith("frame,timestamp_ns,state,torso_x_mm,torso_y_mm,torso_z_mm,"
                          "torso_axis_x,torso_axis_y,torso_axis_z,torso_angle_rad,theta_1_rad,"));
   EXPECT_THAT(csv, HasSubstr(",theta_16_rad,torso_x_mm,torso_y_mm,torso_z_mm,head_x_mm,"));
-  EXPECT_THAT(csv, HasSubstr(",foot_r_z_mm,residual_mm,voxels,wrist_l_x_rad,deviation_torso_mm,"));
-  EXPECT_THAT(csv, HasSubstr(",deviation_foot_r_mm,probability\n0,"));
+  EXPECT_THAT(csv, HasSubstr(",foot_r_z_mm,residual_mm,voxels,wrist_l_x_rad,clavicle_l_x_mm,"));
+  EXPECT_THAT(csv, HasSubstr(",knuckles_r_z_mm,deviation_torso_mm,"));
+  EXPECT_THAT(csv, HasSubstr(",deviation_knuckles_r_mm,contact_heel_l,contact_heel_r,"
+                             "contact_toe_l,contact_toe_r,probability\n0,"));
   const std::string first_row = csv.substr(csv.find('\n') + 1, csv.find('\n'));
   EXPECT_THAT(first_row, StartsWith("0,1700000000000000000,searching,,,,"));
   const auto commas = [](const std::string& line) { return std::ranges::count(line, ','); };
   EXPECT_EQ(commas(first_row.substr(0, first_row.find('\n'))),
-            3 + 7 + 16 + 69 + 2 + 1 + 23 + 1 - 1);
+            3 + 7 + 16 + 69 + 2 + 1 + 3 * 14 + 37 + 4 + 1 - 1);
 }
 
 /// Leaves only the first columns of each row.
@@ -231,7 +233,7 @@ TEST(Result, DamageIsNamedWithFileAndLine) {
               HasSubstr("poses.csv:3: theta_16_rad is \"2.25x\"; expected a number"));
   WriteResult(folder.path(), SomeResult());
   ReplaceInFile(folder.path() / "poses.csv", ",acquiring", "");
-  EXPECT_THAT(SetupErrorOf(read), HasSubstr("poses.csv:3: has 121 fields; expected 122"));
+  EXPECT_THAT(SetupErrorOf(read), HasSubstr("poses.csv:3: has 181 fields; expected 182"));
   WriteResult(folder.path(), SomeResult());
   ReplaceInFile(folder.path() / "poses.csv", "timestamp_ns", "time");
   EXPECT_THAT(SetupErrorOf(read), HasSubstr("poses.csv:1: "));

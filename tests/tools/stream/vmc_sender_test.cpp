@@ -237,11 +237,7 @@ TEST_P(VmcSenderTest, ToesLieAtTheBallsOfTheFeetAndTurnWithThem) {
     const Heard heard = Send(pose);
     for (const auto& [bone, ball, toe] : {std::tuple("LeftToes", Point::kBallL, Point::kToeL),
                                           std::tuple("RightToes", Point::kBallR, Point::kToeR)}) {
-      const int carrier = body_.CarrierOf(ball);
-      const RigidTransform& X = carrier < 0 ? posture.X_WT : posture.X_W[carrier];
-      const auto at = [&](Point point) -> Vector3 {
-        return X * body_.reference_points_T().col(static_cast<int>(point));
-      };
+      const auto at = [&](Point point) { return body_.PlaceOf(point, posture); };
       const Placed toes = PlaceOf(bone, heard);
       EXPECT_LT((InStudio(toes.p) - at(ball)).norm(), 0.1) << bone;
       const Vector3 forward = InStudio(toes.q * Vector3::UnitZ()).normalized();
