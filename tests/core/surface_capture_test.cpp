@@ -19,7 +19,7 @@ namespace {
 
 constexpr std::int64_t kFrameNs = 33'333'333;
 
-// A body that strolls along x with swinging arms and legs, feet near the floor.
+// A body that strolls along x with swinging arms and legs, on the floor.
 PoseState Stroll(const BodyModel& body, int frame) {
   const double swing = std::sin(0.2 * frame);
   PoseState pose;
@@ -31,6 +31,7 @@ PoseState Stroll(const BodyModel& body, int frame) {
   stance.leg_l = {.hip = -20 * swing, .knee = 15 + 10 * swing};
   stance.leg_r = {.hip = 20 * swing, .knee = 15 - 10 * swing};
   pose.theta = AnglesOf(stance, body.table());
+  PutOnFloor(body, pose);
   return pose;
 }
 
