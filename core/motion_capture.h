@@ -69,6 +69,7 @@ struct CaptureResult {
   JointAngles joint_std_rad = {};
   /// How likely heels and toes touch the floor, 0 to 1; NaN: not known.
   Contacts contacts = kUnknownContacts;
+  FootMotions foot_motions = {};  ///< What contacts are judged by, where they are known.
   /// Of the pose, 0 to 1. Empty: nobody is there, or the tracker cannot tell.
   std::optional<double> probability;
   std::optional<RivalPose> rival;  ///< The likeliest of the other poses, if there are any.

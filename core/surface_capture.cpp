@@ -221,6 +221,7 @@ class SurfaceCapture : public MotionCapture {
       feet_.Reset();
     }
     result_.contacts = feet_.Update(body, body.PostureAt(filter.pose()), dt_s);
+    result_.foot_motions = feet_.motions();
     result_.pose = steady_.Follow(body, filter, result_.point_std_mm, result_.contacts, dt_s);
     for (double& std_mm : result_.point_std_mm) std_mm = std::hypot(std_mm, kBodyStd_mm);
     for (double& std_mm : result_.further_std_mm) std_mm = std::hypot(std_mm, kBodyStd_mm);

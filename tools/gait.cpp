@@ -31,14 +31,15 @@ void Print(const std::string& text) { std::fputs(text.c_str(), stdout); }
 
 void WriteReport(const GaitArguments& arguments, const PeopleGaits& people) {
   if (arguments.report.empty()) return;
-  RequireRoomForReport(arguments.report);
   const std::filesystem::path result = std::filesystem::weakly_canonical(arguments.result);
   ReplaceText(arguments.report, GaitReportHtml(result.filename().string(), people));
 }
 
-GaitAnalysis Analyse(const Result& result, const std::filesystem::path& out) {
+GaitAnalysis Analyse(const Result& result, const std::filesystem::path& where,
+                     const std::filesystem::path& out) {
   TellRemarks("gait", result.remarks);
-  GaitAnalysis gait = AnalyseGait(result);
+  if (!out.empty()) RequireRoomForGait(out);
+  GaitAnalysis gait = AnalyseGait(result, Printable(where.string()));
   if (!out.empty()) WriteGait(out, gait);
   return gait;
 }
@@ -50,7 +51,8 @@ void RunForPeople(const GaitArguments& arguments) {
   for (const auto& [name, result] : ReadPeople(arguments.result, arguments.prefix)) {
     const std::filesystem::path out =
         arguments.out.empty() ? std::filesystem::path() : arguments.out / name;
-    const GaitAnalysis& gait = people.emplace_back(name, Analyse(result, out)).second;
+    const GaitAnalysis& gait =
+        people.emplace_back(name, Analyse(result, arguments.result / name, out)).second;
     json[name] = GaitJson(gait);
     text += (text.empty() ? "" : "\n") + Printable(name) + ": " + GaitText(gait);
   }
@@ -59,8 +61,10 @@ void RunForPeople(const GaitArguments& arguments) {
 }
 
 void RunGait(const GaitArguments& arguments) {
+  if (!arguments.report.empty()) RequireRoomForReport(arguments.report);
   if (arguments.people || IsOfPeople(arguments.result)) return RunForPeople(arguments);
-  const GaitAnalysis gait = Analyse(ReadResult(arguments.result, arguments.prefix), arguments.out);
+  const GaitAnalysis gait =
+      Analyse(ReadResult(arguments.result, arguments.prefix), arguments.result, arguments.out);
   WriteReport(arguments, {{"", gait}});
   Print(arguments.json ? JsonText(GaitJson(gait)) + '\n' : GaitText(gait));
 }

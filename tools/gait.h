@@ -5,7 +5,8 @@
 
 namespace mocap {
 
-/// Adds the subcommand `gait RESULT [--out FOLDER] [--json]`.
+/// Adds the subcommand `gait RESULT [--out FOLDER] [--report HTML] [--prefix NAME] [--people]
+/// [--json]`.
 void AddGaitCommand(CLI::App& app);
 
 }  // namespace mocap

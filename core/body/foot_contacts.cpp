@@ -6,7 +6,8 @@
 namespace mocap {
 namespace {
 
-// Speeds are taken over about this time [s]: noise of a frame is no motion.
+// Time constant of the points that speeds are measured against [s]: at 100 Hz, noise from frame to
+// frame would pass for motion.
 constexpr double kSpeedTime_s = 0.02;
 constexpr ContactOdds kHeelOdds{4.08, -0.0481, -1.22}, kToeOdds{6.36, -0.1489, -1.46};
 
@@ -29,11 +30,11 @@ FootContacts::FootPoints FootContacts::PointsOf(const FurtherPoints& further_W) 
 
 Contacts FootContacts::Update(const BodyModel& body, const Posture& posture, double dt_s) {
   const FootPoints now_W = PointsOf(body.FurtherPointsAt(posture));
-  if (!now_W.allFinite() || dt_s <= 0) {
+  if (!now_W.allFinite()) {
     before_W_.reset();
     return kUnknownContacts;
   }
-  if (!before_W_) {
+  if (!before_W_ || dt_s <= 0) {
     before_W_ = now_W;
     return kUnknownContacts;
   }
@@ -44,15 +45,15 @@ Contacts FootContacts::Update(const BodyModel& body, const Posture& posture, dou
   };
   Contacts contacts;
   for (int i = 0; i < kContactCount; ++i) {
-    motion_[i] = motion_of(i);
+    motions_[i] = motion_of(i);
     const bool is_heel = i < 2;
     if (!is_heel) {
       // A foot that rolls off stands on its ball, then on its toes.
       const FootMotion ball = motion_of(i + 2);
-      motion_[i].height_mm = std::min(motion_[i].height_mm, ball.height_mm);
-      motion_[i].speed_mm_s = std::min(motion_[i].speed_mm_s, ball.speed_mm_s);
+      motions_[i].height_mm = std::min(motions_[i].height_mm, ball.height_mm);
+      motions_[i].speed_mm_s = std::min(motions_[i].speed_mm_s, ball.speed_mm_s);
     }
-    contacts[i] = ShareOf(is_heel ? kHeelOdds : kToeOdds, motion_[i]);
+    contacts[i] = ShareOf(is_heel ? kHeelOdds : kToeOdds, motions_[i]);
   }
   *before_W_ += moved_W;
   return contacts;

@@ -16,6 +16,9 @@ using Contacts = Eigen::Matrix<double, 1, kContactCount>;
 inline const Contacts kUnknownContacts =
     Contacts::Constant(std::numeric_limits<double>::quiet_NaN());
 
+/// What is likelier than this counts as a contact.
+inline constexpr double kContactLimit = 0.5;
+
 /// Odds of a contact by height and speed of a part of the foot, as `mocap benchmark --parts noise`
 /// measures them at tracked poses of simulated people: log odds are
 /// `resting + per_mm z + per_log_speed ln(1 + v / kStandingSpeed_mm_s)` [nats].
@@ -23,7 +26,8 @@ struct ContactOdds {
   double resting, per_mm, per_log_speed;
 };
 
-/// How fast the points of a foot that stands seem to move [mm/s].
+/// Speed that noise alone gives the points of a foot that stands: slower ones tell nothing more
+/// [mm/s].
 inline constexpr double kStandingSpeed_mm_s = 30;
 
 /// Height above the floor and speed of a heel or of the toes.
@@ -31,18 +35,20 @@ struct FootMotion {
   double height_mm, speed_mm_s;
 };
 
+using FootMotions = std::array<FootMotion, kContactCount>;
+
 /// Tells contacts by the motion of a body's feet.
 class FootContacts {
  public:
   /// Forgets the frame before.
   void Reset() { before_W_.reset(); }
 
-  /// Returns the contacts of a frame. Unknown without a frame before, and for a body whose feet do
-  /// not turn.
+  /// Returns the contacts of a frame. Unknown without an earlier frame, and for a body whose feet
+  /// do not turn.
   Contacts Update(const BodyModel& body, const Posture& posture, double dt_s);
 
-  /// The motion that Update judges, of heels and toes.
-  const std::array<FootMotion, kContactCount>& motion() const { return motion_; }
+  /// What Update judged last.
+  const FootMotions& motions() const { return motions_; }
 
  private:
   // Heels, toes and balls of the left and the right foot.
@@ -50,7 +56,7 @@ class FootContacts {
   static FootPoints PointsOf(const FurtherPoints& further_W);
 
   std::optional<FootPoints> before_W_;  ///< Follows the points.
-  std::array<FootMotion, kContactCount> motion_{};
+  FootMotions motions_{};
 };
 
 }  // namespace mocap

@@ -17,11 +17,12 @@ struct Stillness {
   int iterations = 3;
 };
 constexpr Stillness kStill{};
-// A foot that stands gives way by so much, comes down when contact is so likely, and leaves when it
-// is less likely than that. One that is found this far from its place has slid there: feet touch
-// the floor while they shuffle and pivot. Its place is a mean over some time.
+// How heels and toes that touch the floor are held.
 struct Standing {
-  double std_mm = 1, comes_down = 0.5, leaves = 0.2, slid_mm = 35, mean_s = 0.5;
+  double std_mm = 1;                                // Standard deviation of a held point.
+  double comes_down = kContactLimit, leaves = 0.2;  // Probabilities that begin and end it.
+  double slid_mm = 35;  // A point this far from its place has slid there, and is held anew.
+  double mean_s = 0.5;  // Averaging time of the place.
 };
 constexpr Standing kStanding{};
 

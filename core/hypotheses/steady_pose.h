@@ -20,8 +20,8 @@ namespace mocap {
 /// how the parts of the body depend on each other, and how large the noise is. A low-pass filter of
 /// the output would delay motions, and so would a filter with less process noise.
 ///
-/// A heel or toe that touches the floor is measured where it has stood in the mean since it came
-/// down.
+/// A heel or toe that touches the floor is pulled to the mean of its places since touchdown, over
+/// at most the last half second.
 class SteadyPose {
  public:
   /// Forgets the frame before.

@@ -139,10 +139,7 @@ class ResidualKeeper : public PoseSink {
   }
 
   void OnSet(const TrackedSet& set) override {
-    if (set.result.state != CaptureState::kTracking) {
-      feet_.Reset();
-      return;
-    }
+    if (set.result.state != CaptureState::kTracking) return;
     KeepContacts(set);
     if (set.frame % every_ != 0) return;
     evidence_.Gather(Observation(set.grid, set.outlines));
@@ -161,10 +158,7 @@ class ResidualKeeper : public PoseSink {
 
  private:
   void KeepContacts(const TrackedSet& set) {
-    const double dt_s = 1e-9 * static_cast<double>(set.capture_ns - last_ns_);
-    last_ns_ = set.capture_ns;
-    const Posture posture = set.body.PostureAt(set.result.pose);
-    if (!feet_.Update(set.body, posture, dt_s).allFinite()) return;
+    if (!set.result.contacts.allFinite()) return;
     const ScoredPoints apart_W =
         ScoredPointsOf(set.result.points_W) - TrueScoredPoints(truth_, set.capture_ns);
     const simulation::FloorContacts touches = truth_.ContactsAt(set.capture_ns);
@@ -174,7 +168,7 @@ class ResidualKeeper : public PoseSink {
       if (apart_W.col(foot - kScoredPoints.begin()).norm() > kMostAway_mm) continue;
       const bool is_heel = i < kContactCount / 2;
       auto& samples = is_heel ? take_.contacts.heels : take_.contacts.toes;
-      samples.push_back({feet_.motion()[i], touches[i]});
+      samples.push_back({set.result.foot_motions[i], touches[i]});
     }
   }
 
@@ -226,8 +220,6 @@ class ResidualKeeper : public PoseSink {
   const SimulatedTruth truth_;
   const int every_;
   NoiseTake& take_;
-  FootContacts feet_;
-  std::int64_t last_ns_ = 0;
   Evidence evidence_;
   Objective objective_;
 };
@@ -244,8 +236,7 @@ void ForEachGroup(std::span<const NoiseTake> takes, NoiseKind kind, std::size_t 
 Residuals ResidualsOf(std::span<const NoiseTake> takes, NoiseKind kind, std::size_t first) {
   Residuals residuals;
   residuals.least_mm = takes.front().voxel_mm / 2;
-  const bool is_distance =
-      kind == NoiseKind::kFlesh || kind == NoiseKind::kOverlap || kind == NoiseKind::kFloor;
+  const bool is_distance = kind == NoiseKind::kFlesh || kind == NoiseKind::kOverlap;
   ForEachGroup(takes, kind, first, [&](const ResidualGroup& group) {
     for (const float r : group.residuals_mm) {
       if (is_distance && r < residuals.least_mm)

@@ -23,25 +23,17 @@ std::optional<double> LatenessOf(const GaitEvent& event, std::span<const GaitEve
 EventCheck CompareEvents(std::span<const GaitEvent> by_contact,
                          std::span<const GaitEvent> by_position) {
   EventCheck check;
-  std::array<double, 2> sums_s{}, squares_s2{};
+  std::array<SampleSums, kGaitEventNames.size()> later_s;
   for (const GaitEvent& event : by_position)
     ++check[static_cast<std::size_t>(event.kind)].by_position;
   for (const GaitEvent& event : by_contact) {
     const auto kind = static_cast<std::size_t>(event.kind);
     ++check[kind].by_contact;
-    const std::optional<double> later_s = LatenessOf(event, by_position);
-    if (!later_s) continue;
-    ++check[kind].both;
-    sums_s[kind] += *later_s;
-    squares_s2[kind] += *later_s * *later_s;
+    if (const std::optional<double> later = LatenessOf(event, by_position))
+      later_s[kind].Add(*later);
   }
-  for (std::size_t kind = 0; kind < check.size(); ++kind) {
-    EventAgreement& one = check[kind];
-    if (one.both == 0) continue;
-    one.mean_s = sums_s[kind] / one.both;
-    const double rest_s2 = squares_s2[kind] - sums_s[kind] * one.mean_s;
-    if (one.both > 1) one.spread_s = std::sqrt(std::max(0.0, rest_s2) / (one.both - 1));
-  }
+  for (std::size_t kind = 0; kind < check.size(); ++kind)
+    check[kind].later_s = later_s[kind].Measured();
   return check;
 }
 

@@ -31,20 +31,19 @@ constexpr int kDecimals = 4;
 
 Json NumberJson(double value) { return std::isnan(value) ? Json() : Rounded(value, kDecimals); }
 
-std::string_view NameOf(Side side) { return kSideNames[static_cast<std::size_t>(side)]; }
-std::string_view NameOf(GaitEventKind kind) {
-  return kGaitEventNames[static_cast<std::size_t>(kind)];
-}
+constexpr std::string_view kEventsHead = "time_s,side,event\n", kStridesHead = "side,begin_s,end_s",
+                           kFiguresHead = "figure,unit,left_mean,left_sd,right_mean,right_sd,",
+                           kCycleHead = "angle,side,strides,percent,mean_deg,sd_deg\n";
 
 std::string EventsCsv(const GaitAnalysis& gait) {
-  std::string text = "time_s,side,event\n";
+  std::string text(kEventsHead);
   for (const GaitEvent& event : gait.events)
     text += fmt::format("{:.4f},{},{}\n", event.time_s, NameOf(event.side), NameOf(event.kind));
   return text;
 }
 
 std::string StridesCsv(const GaitAnalysis& gait) {
-  std::string text = "side,begin_s,end_s";
+  std::string text(kStridesHead);
   for (const GaitFigure& figure : kGaitFigures) text += ',' + ColumnOf(figure);
   text += '\n';
   for (const Stride& stride : gait.strides) {
@@ -56,7 +55,7 @@ std::string StridesCsv(const GaitAnalysis& gait) {
 }
 
 std::string FiguresCsv(const GaitAnalysis& gait) {
-  std::string text = "figure,unit,left_mean,left_sd,right_mean,right_sd,symmetry_percent\n";
+  std::string text = std::string(kFiguresHead) + "symmetry_percent\n";
   const auto cells = [](const MeanAndSpread& side) {
     return side.count > 0 ? fmt::format("{:.4f},{:.4f}", side.mean, side.spread) : ",";
   };
@@ -70,7 +69,7 @@ std::string FiguresCsv(const GaitAnalysis& gait) {
 }
 
 std::string CycleCsv(const GaitAnalysis& gait) {
-  std::string text = "angle,side,strides,percent,mean_deg,sd_deg\n";
+  std::string text(kCycleHead);
   for (const CycleCurve& curve : gait.curves)
     for (int percent = 0; percent < kCycleSamples; ++percent)
       text +=
@@ -100,10 +99,12 @@ Json CheckJson(const EventCheck& check) {
   for (std::size_t kind = 0; kind < check.size(); ++kind) {
     const EventAgreement& one = check[kind];
     Json& row = json[std::string(kGaitEventNames[kind])];
-    row = {{"by_contact", one.by_contact}, {"by_position", one.by_position}, {"both", one.both}};
-    if (one.both == 0) continue;
-    row["position_later_s"] = NumberJson(one.mean_s);
-    row["sd_s"] = NumberJson(one.spread_s);
+    row = {{"by_contact", one.by_contact},
+           {"by_position", one.by_position},
+           {"both", one.later_s.count}};
+    if (one.later_s.count == 0) continue;
+    row["position_later_s"] = NumberJson(one.later_s.mean);
+    row["sd_s"] = NumberJson(one.later_s.spread);
   }
   return json;
 }
@@ -117,16 +118,13 @@ Json CurveJson(const CycleCurve& curve) {
 
 }  // namespace
 
-GaitAnalysis AnalyseGait(const Result& result) {
-  const auto has_feet = [](const PoseRow& row) {
-    return row.has_pose &&
-           row.further_W.col(static_cast<int>(Point::kToeL) - kPointCount).allFinite();
-  };
-  if (std::ranges::any_of(result.poses, IsTracked) && std::ranges::none_of(result.poses, has_feet))
-    throw SetupError(
-        "the result has no heels and toes; expected one of a body whose feet turn, such as full");
+GaitAnalysis AnalyseGait(const Result& result, const std::string& where) {
+  if (std::ranges::any_of(result.poses, IsTracked) && std::ranges::none_of(result.poses, HasFeet))
+    throw SetupError(where +
+                     ": no frame has heels and toes; expected those of a body with feet, such as "
+                     "full, tracked by a version that writes them");
   GaitAnalysis gait;
-  std::vector<GaitEvent> by_contact, by_position;
+  std::vector<GaitEvent> by_position;
   const auto append = [](const auto& added, auto& list) {
     list.insert(list.end(), added.begin(), added.end());
   };
@@ -134,12 +132,11 @@ GaitAnalysis AnalyseGait(const Result& result) {
     gait.tracked_s += run.back().time_s - run.front().time_s;
     const std::vector<GaitEvent> events = FindGaitEvents(run);
     append(events, gait.events);
+    append(StancePhasesOf(events), gait.stances);
     append(StridesOf(run, events), gait.strides);
-    if (!HasContacts(run)) continue;
-    append(events, by_contact);
     append(FindPositionEvents(run), by_position);
   }
-  if (!by_contact.empty()) gait.check = CompareEvents(by_contact, by_position);
+  if (HasContacts(result)) gait.check = CompareEvents(gait.events, by_position);
   gait.summary = Summarize(gait.strides);
   if (!gait.strides.empty())
     gait.curves = CurvesOf(AnglesOf(result), result.poses.front().timestamp_ns, gait.strides);
@@ -170,8 +167,19 @@ Json GaitJson(const GaitAnalysis& gait) {
   return json;
 }
 
-void WriteGait(const std::filesystem::path& folder, const GaitAnalysis& gait) {
+void RequireRoomForGait(const std::filesystem::path& folder) {
   MakeFolder(folder);
+  const auto require = [&](const char* name, std::string_view head) {
+    RequireWritable(folder / name);
+    RequireOwn(folder / name, std::span(&head, 1), "a table of mocap gait");
+  };
+  require("events.csv", kEventsHead);
+  require("strides.csv", kStridesHead);
+  require("figures.csv", kFiguresHead);
+  require("cycle.csv", kCycleHead);
+}
+
+void WriteGait(const std::filesystem::path& folder, const GaitAnalysis& gait) {
   ReplaceText(folder / "events.csv", EventsCsv(gait));
   ReplaceText(folder / "strides.csv", StridesCsv(gait));
   ReplaceText(folder / "figures.csv", FiguresCsv(gait));

@@ -31,43 +31,36 @@ bool IsOf(std::string_view coordinate, Side side) {
   return !coordinate.ends_with(other);
 }
 
-// Sums of a coordinate and of its square at each percent.
-struct CycleSums {
-  std::array<double, kCycleSamples> sum{}, squares{};
-};
+// Of a coordinate, at each percent.
+using CycleSums = std::array<SampleSums, kCycleSamples>;
 
-CycleCurve CurveOf(std::string_view name, Side side, int strides, const CycleSums& sums) {
-  CycleCurve curve{std::string(name), side, strides};
+// Adds the curve of a coordinate that all strides show.
+void AddCurve(std::string_view name, Side side, const CycleSums& sums,
+              std::vector<CycleCurve>& curves) {
+  CycleCurve curve{std::string(name), side};
   for (int percent = 0; percent < kCycleSamples; ++percent) {
-    const double mean = sums.sum[percent] / strides;
-    curve.mean_deg[percent] = mean;
-    const double rest = std::max(0.0, sums.squares[percent] - sums.sum[percent] * mean);
-    if (strides > 1) curve.spread_deg[percent] = std::sqrt(rest / (strides - 1));
+    const MeanAndSpread measured = sums[percent].Measured();
+    if (measured.count == 0 || std::isnan(measured.mean)) return;
+    curve.strides = measured.count;
+    curve.mean_deg[percent] = measured.mean;
+    curve.spread_deg[percent] = measured.spread;
   }
-  return curve;
+  curves.push_back(std::move(curve));
 }
 
 void AddCurves(std::span<const TimedCoordinates> frames, std::span<const Stride> strides, Side side,
                std::vector<CycleCurve>& curves) {
   std::array<CycleSums, kCoordinateNames.size()> sums;
-  int count = 0;
   for (const Stride& stride : strides) {
     if (stride.side != side) continue;
-    ++count;
     for (int percent = 0; percent < kCycleSamples; ++percent) {
       const double share = static_cast<double>(percent) / (kCycleSamples - 1);
       const Coordinates rad = At(frames, std::lerp(stride.begin_s, stride.end_s, share));
-      for (std::size_t i = 0; i < rad.size(); ++i) {
-        const double deg = rad[i] * kDegreesPerRad;
-        sums[i].sum[percent] += deg;
-        sums[i].squares[percent] += deg * deg;
-      }
+      for (std::size_t i = 0; i < rad.size(); ++i) sums[i][percent].Add(rad[i] * kDegreesPerRad);
     }
   }
-  if (count == 0) return;
   for (std::size_t i = 0; i < sums.size(); ++i)
-    if (IsOf(kCoordinateNames[i], side))
-      curves.push_back(CurveOf(kCoordinateNames[i], side, count, sums[i]));
+    if (IsOf(kCoordinateNames[i], side)) AddCurve(kCoordinateNames[i], side, sums[i], curves);
 }
 
 // Someone who turns on the way has the same gait: the pelvis is in the walker's frame.

@@ -24,7 +24,8 @@ struct CycleCurve {
 
 /// Computes the curve of each angle of a limb over the strides of its side, and those of pelvis and
 /// trunk over the strides of either. Those of the pelvis are relative to the walker's frame
-/// (BodyAngles). Angles without strides are left out.
+/// (BodyAngles). Angles without strides, and those
+/// that the result does not show, are left out.
 /// @param angles  of the tracked frames. @param start_ns  the time from which strides count.
 std::vector<CycleCurve> CurvesOf(std::span<const BodyAngles> angles, std::int64_t start_ns,
                                  std::span<const Stride> strides);

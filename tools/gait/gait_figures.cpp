@@ -8,7 +8,7 @@
 namespace mocap {
 namespace {
 
-// A stride takes at most this long: slower people stand.
+// A stride takes at most this long: that of steps of 250 mm at kLeastWalking_mm_s.
 constexpr double kLongestStride_s = 2.5;
 
 Side OtherOf(Side side) { return side == Side::kLeft ? Side::kRight : Side::kLeft; }
@@ -53,26 +53,31 @@ std::optional<Stride> StrideFrom(std::span<const GaitEvent> events, const GaitEv
   const auto offs_s = TimesOf(events, begin.side, kFootOff, begin.time_s, end_s);
   const auto strikes_s = TimesOf(events, other, kFootStrike, begin.time_s, end_s);
   if (offs_s.empty() || strikes_s.empty()) return std::nullopt;
-  const auto other_offs_s =
-      TimesOf(events, other, kFootOff, begin.time_s - (end_s - begin.time_s), strikes_s.front());
+  const double opposite_strike_s = strikes_s.front();
+  const double earliest_s = begin.time_s - (end_s - begin.time_s);
+  const auto other_offs_s = TimesOf(events, other, kFootOff, earliest_s, opposite_strike_s);
   if (other_offs_s.empty()) return std::nullopt;
+  const double opposite_off_s = other_offs_s.back();
+  // An off before another strike belongs to the stance before: its own was missed.
+  if (!TimesOf(events, other, kFootStrike, opposite_off_s, opposite_strike_s).empty())
+    return std::nullopt;
   return Stride{.side = begin.side,
                 .begin_s = begin.time_s,
                 .end_s = end_s,
                 .off_s = offs_s.front(),
-                .opposite_off_s = other_offs_s.back(),
-                .opposite_strike_s = strikes_s.front()};
+                .opposite_strike_s = opposite_strike_s,
+                .opposite_off_s = opposite_off_s};
 }
 
-void MeasureWay(std::span<const GaitFrame> run, Stride& stride) {
+void MeasureLengths(std::span<const GaitFrame> run, Stride& stride) {
   const GaitFrame begin = FrameAt(run, stride.begin_s), end = FrameAt(run, stride.end_s);
   const auto foot = static_cast<std::size_t>(stride.side);
-  Vector3 way = end.heel_W[foot] - begin.heel_W[foot];
-  way.z() = 0;
-  const Vector3 ahead = way.normalized(), left = Vector3::UnitZ().cross(ahead);
+  Vector3 line = end.heel_W[foot] - begin.heel_W[foot];
+  line.z() = 0;
+  const Vector3 ahead = line.normalized(), left = Vector3::UnitZ().cross(ahead);
   const GaitFrame between = FrameAt(run, stride.opposite_strike_s);
   const Vector3 step = end.heel_W[foot] - between.heel_W[1 - foot];
-  stride.length_mm = way.norm();
+  stride.length_mm = line.norm();
   stride.step_length_mm = ahead.dot(step);
   // Feet that cross have a negative width.
   stride.step_width_mm = (stride.side == Side::kLeft ? 1 : -1) * left.dot(step);
@@ -80,26 +85,15 @@ void MeasureWay(std::span<const GaitFrame> run, Stride& stride) {
 }
 
 MeanAndSpread Measure(std::span<const Stride> strides, Side side, const GaitFigure& figure) {
-  MeanAndSpread result;
-  double sum = 0, squares = 0;
-  for (const Stride& stride : strides) {
-    if (stride.side != side) continue;
-    const double value = figure.of(stride);
-    sum += value;
-    squares += value * value;
-    ++result.count;
-  }
-  if (result.count == 0) return result;
-  result.mean = sum / result.count;
-  if (result.count > 1)
-    result.spread = std::sqrt(std::max(0.0, squares - sum * result.mean) /
-                              static_cast<double>(result.count - 1));
-  return result;
+  SampleSums sums;
+  for (const Stride& stride : strides)
+    if (stride.side == side) sums.Add(figure.of(stride));
+  return sums.Measured();
 }
 
 }  // namespace
 
-const std::array<GaitFigure, 11> kGaitFigures = {{
+const std::array<GaitFigure, kGaitFigureCount> kGaitFigures = {{
     {"step length", "mm", [](const Stride& s) { return s.step_length_mm; }},
     {"stride length", "mm", [](const Stride& s) { return s.length_mm; }},
     {"step width", "mm", [](const Stride& s) { return s.step_width_mm; }},
@@ -114,13 +108,30 @@ const std::array<GaitFigure, 11> kGaitFigures = {{
      [](const Stride& s) { return 100 * (s.off_s - s.begin_s - s.both_s()) / s.duration_s(); }},
 }};
 
+std::vector<StancePhase> StancePhasesOf(std::span<const GaitEvent> events) {
+  std::vector<StancePhase> stances;
+  for (const Side side : {Side::kLeft, Side::kRight}) {
+    double strike_s = std::nan("");
+    for (const GaitEvent& event : events) {
+      if (event.side != side) continue;
+      if (event.kind == GaitEventKind::kFootStrike) {
+        strike_s = event.time_s;
+      } else if (!std::isnan(strike_s)) {
+        stances.push_back({side, strike_s, event.time_s});
+        strike_s = std::nan("");
+      }
+    }
+  }
+  return stances;
+}
+
 std::vector<Stride> StridesOf(std::span<const GaitFrame> run, std::span<const GaitEvent> events) {
   std::vector<Stride> strides;
   for (const GaitEvent& begin : events) {
     if (begin.kind != GaitEventKind::kFootStrike) continue;
     std::optional<Stride> stride = StrideFrom(events, begin);
     if (!stride) continue;
-    MeasureWay(run, *stride);
+    MeasureLengths(run, *stride);
     if (stride->speed_mm_s >= kLeastWalking_mm_s) strides.push_back(*stride);
   }
   return strides;

@@ -8,6 +8,7 @@
 #include <string_view>
 #include <vector>
 
+#include "tools/gait/mean_and_spread.h"
 #include "tools/kinematics/gait_events.h"
 
 namespace mocap {
@@ -16,13 +17,13 @@ namespace mocap {
 struct Stride {
   Side side = Side::kLeft;
   double begin_s = 0, end_s = 0;
-  double off_s = 0;              ///< When the foot left the floor in between.
-  double opposite_off_s = 0;     ///< When the other one left it before it
-  double opposite_strike_s = 0;  ///< struck in between. A runner's left it before begin_s.
-  double length_mm = 0;          ///< Way of the heel: the stride line.
-  double step_length_mm = 0;     ///< From the other heel to this one, along that line,
-  double step_width_mm = 0;      ///< and across it; negative for feet that cross.
-  double speed_mm_s = 0;
+  double off_s = 0;              ///< The foot's off in between.
+  double opposite_strike_s = 0;  ///< First strike of the other foot in between.
+  double opposite_off_s = 0;     ///< Its off before that strike; before begin_s for runners.
+  double length_mm = 0;          ///< Of the stride line, from the heel's first place to its second.
+  double step_length_mm = 0;     ///< From the other heel to this one, along that line.
+  double step_width_mm = 0;      ///< The same across the line; negative for feet that cross.
+  double speed_mm_s = 0;         ///< Of the middle of the hip joints.
 
   double duration_s() const { return end_s - begin_s; }
   /// While both feet are on the floor; a runner's never are.
@@ -37,21 +38,25 @@ struct GaitFigure {
   std::string_view unit;
   double (*of)(const Stride& stride);
 };
-extern const std::array<GaitFigure, 11> kGaitFigures;
-
-/// Mean and standard deviation of a figure over strides of one side.
-struct MeanAndSpread {
-  int count = 0;
-  double mean = 0, spread = 0;
-};
+inline constexpr std::size_t kGaitFigureCount = 11;
+extern const std::array<GaitFigure, kGaitFigureCount> kGaitFigures;
 
 struct GaitSummary {
-  /// By side and figure.
-  std::array<std::array<MeanAndSpread, 11>, 2> figures;
+  /// Over the strides of a side: by side and figure.
+  std::array<std::array<MeanAndSpread, kGaitFigureCount>, 2> figures;
   /// 2 (left − right) / (left + right) of the means, in percent (Robinson, Herzog, Nigg 1987); NaN
   /// if a side has no stride.
-  std::array<double, 11> symmetry_percent;
+  std::array<double, kGaitFigureCount> symmetry_percent;
 };
+
+/// A foot on the floor, from a strike to its off.
+struct StancePhase {
+  Side side;
+  double begin_s, end_s;
+};
+
+/// Lists the stances of a run whose strike and off were found, by side and in order of time.
+std::vector<StancePhase> StancePhasesOf(std::span<const GaitEvent> events);
 
 /// Lists the strides of a run that have all four of their events, in order of time. Steps on the
 /// spot are none.

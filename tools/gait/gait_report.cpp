@@ -30,21 +30,17 @@ Json FiguresTableOf(const GaitSummary& summary) {
   return Table({{"figure"}, {"unit"}, {"left"}, {"right"}, {"symmetry index"}}, rows);
 }
 
-/// The stances of a side: from each strike to the next off.
+/// A line for each stance of a side.
 Json StancesOf(const GaitAnalysis& gait, Side side) {
   Json x = Json::array(), y = Json::array();
-  const auto add = [&](Json time_s, Json lane) {
-    x.push_back(std::move(time_s));
-    y.push_back(std::move(lane));
-  };
-  bool is_standing = false;
-  for (const GaitEvent& event : gait.events) {
-    if (event.side != side) continue;
-    const bool strikes = event.kind == GaitEventKind::kFootStrike;
-    if (strikes == is_standing) continue;
-    is_standing = strikes;
-    add(NumberOrNull(event.time_s), LaneOf(side));
-    if (!strikes) add(Json(), Json());
+  for (const StancePhase& stance : gait.stances) {
+    if (stance.side != side) continue;
+    for (const double time_s : {stance.begin_s, stance.end_s}) {
+      x.push_back(NumberOrNull(time_s));
+      y.push_back(LaneOf(side));
+    }
+    x.push_back(Json());
+    y.push_back(Json());
   }
   return Series(side == Side::kLeft ? "on the floor" : "", FigureOfSide(side), "line", y,
                 {{"x", x}});
@@ -95,8 +91,7 @@ Json BandOf(const CycleCurve& curve) {
 Json MeanCurve(const CycleCurve& curve) {
   Json y = Json::array();
   for (const double deg : curve.mean_deg) y.push_back(NumberOrNull(deg));
-  return Series(std::string(kSideNames[static_cast<std::size_t>(curve.side)]),
-                FigureOfSide(curve.side), "line", y);
+  return Series(std::string(NameOf(curve.side)), FigureOfSide(curve.side), "line", y);
 }
 
 /// The angle without its side.

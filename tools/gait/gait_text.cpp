@@ -13,19 +13,22 @@ int DecimalsOf(std::string_view unit) {
   return unit == "s" || unit == "m/s" ? 2 : 1;
 }
 
+// "12 of 12 foot strikes, 9 ± 11 ms later"
+std::string AgreementText(const EventAgreement& one, const char* events) {
+  const MeanAndSpread& later = one.later_s;
+  const std::string found = fmt::format("{} of {} {}", later.count, one.by_contact, events);
+  if (later.count == 0) return found;
+  return fmt::format("{}, {:.0f} ± {:.0f} ms {}", found, 1000 * std::abs(later.mean),
+                     1000 * later.spread, later.mean < 0 ? "earlier" : "later");
+}
+
 }  // namespace
 
 std::string EventsText(const GaitAnalysis& gait) {
   if (!gait.check) return "by position (Zeni et al. 2008); the result has no contacts";
-  std::string text = "by contact; by position (Zeni et al. 2008)";
-  for (std::size_t kind = 0; kind < gait.check->size(); ++kind) {
-    const EventAgreement& one = (*gait.check)[kind];
-    text += fmt::format("{} {} of {} {}", kind == 0 ? "" : ",", one.both, one.by_contact,
-                        kind == 0 ? "foot strikes" : "foot offs");
-    if (one.both > 0)
-      text += fmt::format(", {:+.0f} ± {:.0f} ms", 1000 * one.mean_s, 1000 * one.spread_s);
-  }
-  return text;
+  const auto& [strikes, offs] = *gait.check;
+  return "by contact; by position (Zeni et al. 2008) " + AgreementText(strikes, "foot strikes") +
+         ", and " + AgreementText(offs, "foot offs");
 }
 
 std::string MeasuredText(const GaitFigure& figure, const MeanAndSpread& measured) {

@@ -4,16 +4,17 @@
 #include <cmath>
 #include <iterator>
 
+#include "tools/results/export_axes.h"
+
 namespace mocap {
 namespace {
 
-constexpr double kLeastRun_s = 2;
 constexpr double kHalfWindow_s = 0.25;
-// Frames farther apart than this many periods leave a gap.
+// Frames farther apart than this many periods leave a gap: one lost frame leaves none.
 constexpr double kGapPeriods = 2.5;
 constexpr double kLeastPhase_s = 0.08;
-constexpr double kContact = 0.5;
-// A foot that goes forward and back by less relative to the pelvis takes no step [mm].
+// A foot that goes forward and back by less relative to the pelvis takes no step [mm]: it swings by
+// the length of a step, and hips that sway move it by some 50 mm.
 constexpr double kLeastSwing_mm = 100;
 
 double MedianPeriod_s(const std::vector<PoseRow>& rows) {
@@ -29,6 +30,8 @@ Vector3 FurtherOf(const PoseRow& row, Point point) {
   return row.further_W.col(static_cast<int>(point) - kPointCount);
 }
 
+bool HasContacts(const PoseRow& row) { return IsTracked(row) && row.contacts.allFinite(); }
+
 GaitFrame FrameOf(const PoseRow& row, std::int64_t start_ns) {
   const auto at = [&](Point point) -> Vector3 { return row.points_W.col(static_cast<int>(point)); };
   GaitFrame frame;
@@ -39,11 +42,6 @@ GaitFrame FrameOf(const PoseRow& row, std::int64_t start_ns) {
   for (const int side : {0, 1})
     frame.contact[side] = std::max(row.contacts[side], row.contacts[2 + side]);
   return frame;
-}
-
-bool HasFeet(const PoseRow& row) {
-  return row.state == CaptureState::kTracking && FurtherOf(row, Point::kHeelL).allFinite() &&
-         FurtherOf(row, Point::kHeelR).allFinite();
 }
 
 // An extremum of a signal: the vertex of the parabola through three samples.
@@ -90,8 +88,8 @@ std::vector<GaitEvent> CrossingsOf(std::span<const GaitFrame> run, Side side) {
   std::vector<GaitEvent> events;
   for (std::size_t i = 1; i < run.size(); ++i) {
     const double before = run[i - 1].contact[foot], after = run[i].contact[foot];
-    if ((before >= kContact) == (after >= kContact)) continue;
-    const double share = (kContact - before) / (after - before);
+    if ((before > kContactLimit) == (after > kContactLimit)) continue;
+    const double share = (kContactLimit - before) / (after - before);
     events.push_back({side, after > before ? GaitEventKind::kFootStrike : GaitEventKind::kFootOff,
                       std::lerp(run[i - 1].time_s, run[i].time_s, share)});
   }
@@ -112,25 +110,30 @@ void RemoveFlicker(std::vector<GaitEvent>& events) {
 
 }  // namespace
 
+bool HasFeet(const PoseRow& row) {
+  return FurtherOf(row, Point::kHeelL).allFinite() && FurtherOf(row, Point::kHeelR).allFinite() &&
+         FurtherOf(row, Point::kToeL).allFinite() && FurtherOf(row, Point::kToeR).allFinite();
+}
+
+bool HasContacts(const Result& result) {
+  return std::ranges::any_of(result.poses, [](const PoseRow& row) { return HasContacts(row); });
+}
+
 std::vector<GaitRun> GaitRunsOf(const Result& result) {
   std::vector<GaitRun> runs;
   if (result.poses.size() < 2) return runs;
   const double gap_s = kGapPeriods * MedianPeriod_s(result.poses);
   const std::int64_t start_ns = result.poses.front().timestamp_ns;
+  const bool by_contact = HasContacts(result);
   bool is_open = false;
   for (const PoseRow& row : result.poses) {
-    if (!HasFeet(row)) {
-      is_open = false;
-      continue;
-    }
+    if (!IsTracked(row)) is_open = false;
+    if (!IsTracked(row) || !HasFeet(row) || (by_contact && !HasContacts(row))) continue;
     const GaitFrame frame = FrameOf(row, start_ns);
     if (!is_open || frame.time_s - runs.back().back().time_s > gap_s) runs.emplace_back();
     runs.back().push_back(frame);
     is_open = true;
   }
-  std::erase_if(runs, [](const GaitRun& run) {
-    return run.back().time_s - run.front().time_s < kLeastRun_s;
-  });
   return runs;
 }
 
@@ -147,12 +150,6 @@ std::vector<Vector3> DirectionsOf(std::span<const GaitFrame> run) {
     directions.push_back(walks ? Vector3(way.normalized()) : Vector3::Zero());
   }
   return directions;
-}
-
-bool HasContacts(std::span<const GaitFrame> run) {
-  return std::ranges::none_of(run, [](const GaitFrame& frame) {
-    return std::isnan(frame.contact[0]) || std::isnan(frame.contact[1]);
-  });
 }
 
 std::vector<GaitEvent> FindContactEvents(std::span<const GaitFrame> run) {
@@ -186,7 +183,8 @@ std::vector<GaitEvent> FindPositionEvents(std::span<const GaitFrame> run) {
 }
 
 std::vector<GaitEvent> FindGaitEvents(std::span<const GaitFrame> run) {
-  return HasContacts(run) ? FindContactEvents(run) : FindPositionEvents(run);
+  const bool has_contacts = !run.empty() && !std::isnan(run.front().contact[0]);
+  return has_contacts ? FindContactEvents(run) : FindPositionEvents(run);
 }
 
 std::vector<GaitEvent> GaitEventsOf(const Result& result) {

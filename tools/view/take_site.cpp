@@ -109,8 +109,8 @@ Json EventsJson(const Result& result) {
   for (const GaitEvent& event : GaitEventsOf(result)) {
     const double start_ms = static_cast<double>(result.poses.front().timestamp_ns) / kNsPerMs;
     events.push_back({{"time_ms", start_ms + 1000 * event.time_s},
-                      {"side", kSideNames[static_cast<std::size_t>(event.side)]},
-                      {"event", kGaitEventNames[static_cast<std::size_t>(event.kind)]}});
+                      {"side", NameOf(event.side)},
+                      {"event", NameOf(event.kind)}});
   }
   return events;
 }

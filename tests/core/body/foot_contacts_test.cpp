@@ -78,7 +78,7 @@ TEST_F(FootContactsTest, SpeedIsTheSameAtEveryRate) {
       pose.X_WT.p.y() += 300 / rate_hz;
     }
     Update(pose, 1 / rate_hz);
-    EXPECT_NEAR(feet_.motion()[kHeelOfRight].speed_mm_s, 300, 1) << rate_hz;
+    EXPECT_NEAR(feet_.motions()[kHeelOfRight].speed_mm_s, 300, 1) << rate_hz;
   }
 }
 
