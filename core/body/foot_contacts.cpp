@@ -9,7 +9,7 @@ namespace {
 // Time constant of the points that speeds are measured against [s]: at 100 Hz, noise from frame to
 // frame would pass for motion.
 constexpr double kSpeedTime_s = 0.02;
-constexpr ContactOdds kHeelOdds{4.08, -0.0481, -1.22}, kToeOdds{6.36, -0.1489, -1.46};
+constexpr ContactOdds kHeelOdds{8.77, -0.1003, -2.46}, kToeOdds{7.43, -0.1199, -2.29};
 
 double ShareOf(const ContactOdds& odds, const FootMotion& motion) {
   const double nats = odds.resting + odds.per_mm * motion.height_mm +

@@ -123,10 +123,10 @@ void AddOverlaps(const PosedBody& posed, ResidualGroups& groups) {
   }
 }
 
-// Likewise the depths of all parts below the floor, as one group.
+// The depths of all parts that reach below the floor, as one group.
 void AddFloor(const PosedBody& posed, ResidualGroups& groups) {
   for (const LowestEnd& end : EndsBelowFloor(posed, ~CapsuleSet{0}))
-    groups.Add(NoiseKind::kFloor, 0, end.depth_mm);
+    if (end.capsule >= 0) groups.Add(NoiseKind::kFloor, 0, end.depth_mm);
 }
 
 class ResidualKeeper : public PoseSink {
