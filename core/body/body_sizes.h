@@ -70,6 +70,14 @@ using BodyPoints = Eigen::Matrix<double, 3, kPointCount>;
 /// The points that follow the 23.
 using FurtherPoints = Eigen::Matrix<double, 3, kFurtherPointCount>;
 
+/// One of them.
+inline FurtherPoints::ColXpr FurtherOf(FurtherPoints& further, Point point) {
+  return further.col(static_cast<int>(point) - kPointCount);
+}
+inline FurtherPoints::ConstColXpr FurtherOf(const FurtherPoints& further, Point point) {
+  return further.col(static_cast<int>(point) - kPointCount);
+}
+
 /// All points.
 using BodyPlaces = Eigen::Matrix<double, 3, kPlaceCount>;
 

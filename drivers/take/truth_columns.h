@@ -1,4 +1,5 @@
-// The columns of truth.csv after frame and timestamp_ns.
+// The columns of truth.csv after frame and timestamp_ns. Points and contacts have the same names in
+// poses.csv.
 #pragma once
 
 #include <array>

@@ -16,13 +16,13 @@ int IconOf(GaitEventKind kind) { return kind == GaitEventKind::kFootStrike ? 1 :
 
 }  // namespace
 
-double C3dClock::At(double ns) const {
-  const auto after = std::ranges::upper_bound(capture_ns, static_cast<std::int64_t>(ns));
+double C3dClock::At(double moment_ns) const {
+  const auto after = std::ranges::upper_bound(capture_ns, static_cast<std::int64_t>(moment_ns));
   const auto i = static_cast<std::size_t>(after - capture_ns.begin());
   if (i == 0) return file_s.front();
   if (i == capture_ns.size()) return file_s.back();
   const auto before_ns = static_cast<double>(capture_ns[i - 1]);
-  const double share = (ns - before_ns) / (static_cast<double>(capture_ns[i]) - before_ns);
+  const double share = (moment_ns - before_ns) / (static_cast<double>(capture_ns[i]) - before_ns);
   return std::lerp(file_s[i - 1], file_s[i], share);
 }
 

@@ -16,7 +16,7 @@ struct C3dClock {
   std::vector<double> file_s;
 
   /// Returns the time in the file of a time between two frames.
-  double At(double capture_ns) const;
+  double At(double moment_ns) const;
 };
 
 /// Collects the events of the subjects.

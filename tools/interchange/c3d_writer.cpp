@@ -55,10 +55,8 @@ class SubjectData {
     }
     const PoseRow& row = poses_[pose_];
     for (int i = 0; i < kPointCount; ++i) AddPoint(row.points_W.col(i), QualityOf(row), data);
-    for (const C3dMarker& marker : kC3dMarkers) {
-      const int further = static_cast<int>(marker.point) - kPointCount;
-      AddPoint(row.further_W.col(further), QualityOf(row), data);
-    }
+    for (const C3dMarker& marker : kC3dMarkers)
+      AddPoint(FurtherOf(row.further_W, marker.point), QualityOf(row), data);
     while (angles_[angle_].time_ns < time_ns) ++angle_;
     for (const Vector3& rad : C3dAnglesOf(angles_[angle_])) {
       AddPoint(rad * kDegreesPerRad, 0, data);

@@ -86,7 +86,11 @@ void Follow(const TakeTruth& truth, std::span<const FrameError> frames, int cont
     const Vector3 p_W = point_of(frame);
     const bool stands =
         IsContact(truth.extremities[static_cast<std::size_t>(frame.truth)].contacts[contact]);
-    stands&& p_W.allFinite() ? ways.Stand(p_W) : ways.Leave();
+    if (stands && p_W.allFinite()) {
+      ways.Stand(p_W);
+    } else {
+      ways.Leave();
+    }
   }
   ways.Leave();
 }
@@ -108,7 +112,7 @@ void MeasureContacts(const Result& result, const TakeTruth& truth,
   std::array<StanceWays, 2> ways, true_ways;
   for (int contact = 0; contact < kContactCount; ++contact) {
     const auto part = static_cast<std::size_t>(contact) / 2;
-    const int point = static_cast<int>(kContactPoints[contact]) - kPointCount;
+    const Point point = kContactPoints[contact];
     for (const FrameError& frame : frames) {
       const double probability =
           result.poses[static_cast<std::size_t>(frame.pose)].contacts[contact];
@@ -120,13 +124,14 @@ void MeasureContacts(const Result& result, const TakeTruth& truth,
     Follow(
         truth, frames, contact,
         [&](const FrameError& frame) -> Vector3 {
-          return result.poses[static_cast<std::size_t>(frame.pose)].further_W.col(point);
+          return FurtherOf(result.poses[static_cast<std::size_t>(frame.pose)].further_W, point);
         },
         ways[part]);
     Follow(
         truth, frames, contact,
         [&](const FrameError& frame) -> Vector3 {
-          return truth.extremities[static_cast<std::size_t>(frame.truth)].points_W.col(point);
+          return FurtherOf(truth.extremities[static_cast<std::size_t>(frame.truth)].points_W,
+                           point);
         },
         true_ways[part]);
   }

@@ -1,15 +1,13 @@
 #include "tools/results/result_columns.h"
 
-#include <array>
 #include <cmath>
 
 #include "core/body/body_part.h"
+#include "drivers/take/truth_columns.h"
 #include "tools/results/fixed_text.h"
 
 namespace mocap {
 namespace {
-
-constexpr std::array<const char*, 3> kAxisEndings = {"_x_mm", "_y_mm", "_z_mm"};
 
 double JointIn(const PoseRow& row, std::size_t place) {
   const auto joint = static_cast<Eigen::Index>(place);
@@ -62,7 +60,7 @@ std::vector<std::string> ResultColumns() {
       "torso_z_mm", "torso_axis_x", "torso_axis_y", "torso_axis_z", "torso_angle_rad"};
   for (int i = 1; i <= kPaperAngleCount; ++i) columns.push_back(PaperAngleColumn(i));
   for (const std::string_view point : kPointNames) {
-    for (const char* axis : kAxisEndings) columns.push_back(std::string(point) + axis);
+    for (const std::string& column : PointColumns(point)) columns.push_back(column);
   }
   columns.insert(columns.end(), {"residual_mm", "voxels"});
   return columns;
@@ -80,7 +78,7 @@ std::vector<FurtherColumn> FurtherColumns(const BodyRecord& body, ListedJoints j
                        .set_number = SetJointIn});
   }
   for (std::size_t i = 0; i < 3 * kFurtherPointNames.size(); ++i) {
-    columns.push_back({.name = std::string(kFurtherPointNames[i / 3]) + kAxisEndings[i % 3],
+    columns.push_back({.name = PointColumns(kFurtherPointNames[i / 3])[i % 3],
                        .place = i,
                        .number = CoordinateIn,
                        .set_number = SetCoordinateIn});
@@ -93,7 +91,7 @@ std::vector<FurtherColumn> FurtherColumns(const BodyRecord& body, ListedJoints j
                        .set_number = SetDeviationIn});
   }
   for (std::size_t i = 0; i < kContactCount; ++i) {
-    columns.push_back({.name = "contact_" + std::string(kContactNames[i]),
+    columns.push_back({.name = ContactColumn(kContactNames[i]),
                        .decimals = 3,
                        .is_share = true,
                        .place = i,

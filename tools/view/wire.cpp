@@ -100,7 +100,7 @@ std::string PoseBytes(const DrawnPose& pose) {
   writer.Add(static_cast<float>(pose.rival ? pose.rival->probability : 0));
   if (pose.rival) writer.AddFloats(pose.rival->points_W.reshaped());
   for (int i = 0; i < kContactCount; ++i) {
-    writer.AddFloats(row.further_W.col(static_cast<int>(kContactPoints[i]) - kPointCount));
+    writer.AddFloats(FurtherOf(row.further_W, kContactPoints[i]));
     writer.Add(static_cast<float>(row.contacts[i]));
   }
   return writer.Take();

@@ -49,7 +49,7 @@ TEST(SkeletonMotion, SaysHowFarJointsAreOffWhenBonesChange) {
   const Vector3 calf = row.points_W.col(static_cast<int>(Point::kFootL)) -
                        row.points_W.col(static_cast<int>(Point::kKneeL));
   for (const Point point : {Point::kAnkleL, Point::kHeelL, Point::kBallL, Point::kToeL})
-    row.further_W.col(static_cast<int>(point) - kPointCount) += 20 * calf.normalized();
+    FurtherOf(row.further_W, point) += 20 * calf.normalized();
   EXPECT_NEAR(MakeSkeletonMotion(result).worst_mm, 20, 1e-6);
 }
 

@@ -106,7 +106,7 @@ TEST(TrcWriter, HasHeelsToesAnklesAndWrists) {
                                                 {"LWJC", Point::kWristL}, {"RWJC", Point::kWristR}};
   for (const auto& [name, point] : markers) {
     const auto column = std::ranges::find(rows[3], name) - rows[3].begin();
-    const Vector3 p_W = result.poses[0].further_W.col(static_cast<int>(point) - kPointCount);
+    const Vector3 p_W = FurtherOf(result.poses[0].further_W, point);
     EXPECT_NEAR(std::stod(rows[6].at(column)), p_W.y(), 0.001) << name;
     EXPECT_NEAR(std::stod(rows[6].at(column + 1)), p_W.z(), 0.001) << name;
     EXPECT_NEAR(std::stod(rows[6].at(column + 2)), p_W.x(), 0.001) << name;

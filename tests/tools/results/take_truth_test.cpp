@@ -88,10 +88,8 @@ TEST_F(TakeTruthTest, ReadsWhatATableHasOfHandsFeetAndHead) {
   ASSERT_TRUE(truth);
   ASSERT_EQ(truth->extremities.size(), 1u);
   const TrueExtremities& extremities = truth->extremities.front();
-  EXPECT_EQ(extremities.points_W.col(static_cast<int>(Point::kHeelR) - kPointCount),
-            Vector3(1, 2, 3));
-  EXPECT_EQ(extremities.points_W.col(static_cast<int>(Point::kAnkleL) - kPointCount),
-            Vector3(10, 100, 100));
+  EXPECT_EQ(FurtherOf(extremities.points_W, Point::kHeelR), Vector3(1, 2, 3));
+  EXPECT_EQ(FurtherOf(extremities.points_W, Point::kAnkleL), Vector3(10, 100, 100));
   EXPECT_EQ(extremities.rotations.col(0), Vector3(0.1, 0.2, 0.3));
   EXPECT_EQ(extremities.contacts[2], 1);
   EXPECT_TRUE(std::isnan(extremities.contacts[0]));

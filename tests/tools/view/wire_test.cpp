@@ -20,7 +20,7 @@ TEST(Wire, APoseLiesWhereThePageReadsIt) {
   pose.row.voxels = 3000;
   pose.row.points_W.col(22) = Vector3(1, 2, 3);
   pose.row.probability = 0.75;
-  pose.row.further_W.col(static_cast<int>(Point::kToeR) - kPointCount) = Vector3(4, 5, 6);
+  FurtherOf(pose.row.further_W, Point::kToeR) = Vector3(4, 5, 6);
   pose.row.contacts[3] = 0.625;
   pose.rival = RivalPose{0.25, BodyPoints::Constant(7)};
   pose.rival->points_W.col(22) = Vector3(1, 2, 3);
