@@ -5,14 +5,12 @@ namespace {
 
 constexpr double kLeft = -1, kRight = 1;
 
-Vector3 Ball(const LimbAngles& limb) { return {limb.flexion, limb.adduction, limb.rotation}; }
+Vector3 Hip(const LimbAngles& leg) { return {leg.flexion, leg.adduction, leg.rotation}; }
+
+/// Plug-in Gait counts an arm that is lifted to the side as positive.
+Vector3 Shoulder(const LimbAngles& arm) { return {arm.flexion, -arm.adduction, arm.rotation}; }
 
 Vector3 Hinge(const LimbAngles& limb) { return {limb.bend, 0, 0}; }
-
-Vector3 Ankle(const FootAngles& foot) { return foot.about_shin; }
-
-/// Deviation towards the little finger, extension; the forearm's turn is not known.
-Vector3 Wrist(const HandAngles& hand) { return {hand.deviation, -hand.flexion, 0 * hand.flexion}; }
 
 /// Leaning forward, this side raised, this side forward.
 Vector3 Leaning(const Vector3& walker_zxy, double side) {
@@ -27,19 +25,19 @@ Vector3 LeaningBack(const Vector3& walker_zxy, double side) {
 }  // namespace
 
 std::array<Vector3, kC3dAngleNames.size()> C3dAnglesOf(const BodyAngles& angles) {
-  return {Ball(angles.leg_l),
-          Ball(angles.leg_r),
+  return {Hip(angles.leg_l),
+          Hip(angles.leg_r),
           Hinge(angles.leg_l),
           Hinge(angles.leg_r),
-          Ball(angles.arm_l),
-          Ball(angles.arm_r),
+          Shoulder(angles.arm_l),
+          Shoulder(angles.arm_r),
           Hinge(angles.arm_l),
           Hinge(angles.arm_r),
           angles.lumbar,
-          Ankle(angles.foot_l),
-          Ankle(angles.foot_r),
-          Wrist(angles.hand_l),
-          Wrist(angles.hand_r),
+          angles.foot_l.about_shin,
+          angles.foot_r.about_shin,
+          angles.hand_l.about_forearm,
+          angles.hand_r.about_forearm,
           Leaning(angles.walker_pelvis, kLeft),
           Leaning(angles.walker_pelvis, kRight),
           Leaning(angles.walker_torso, kLeft),

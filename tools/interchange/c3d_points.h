@@ -38,8 +38,8 @@ inline constexpr std::array<std::string_view, 19> kC3dAngleNames = {
 inline constexpr std::size_t kC3dPointCount =
     kPointCount + kC3dMarkers.size() + kC3dAngleNames.size();
 
-/// Returns the angles [rad] in the order of kC3dAngleNames: of limbs x flexion, y adduction, z
-/// internal rotation; NaN: not known. docs/interchange.md has a table.
+/// Returns the angles [rad] in the order of kC3dAngleNames: of limbs x flexion, y adduction (of the
+/// shoulder abduction), z internal rotation; NaN: not known. docs/interchange.md has a table.
 std::array<Vector3, kC3dAngleNames.size()> C3dAnglesOf(const BodyAngles& angles);
 
 }  // namespace mocap

@@ -32,6 +32,12 @@ Vector3 AnglesZyx(const Matrix3& R) {
   return {std::atan2(R(1, 0), R(0, 0)), y, std::atan2(R(2, 1), R(2, 2))};
 }
 
+Vector3 AnglesXzy(const Matrix3& R) {
+  const double z = std::asin(std::clamp(-R(0, 1), -1.0, 1.0));
+  if (IsLocked(R(0, 1))) return {std::atan2(-R(1, 2), R(2, 2)), z, 0};
+  return {std::atan2(R(2, 1), R(1, 1)), z, std::atan2(R(0, 2), R(0, 0))};
+}
+
 Vector3 NearestEquivalent(const Vector3& angles, const Vector3& others) {
   const auto near_others = [&](const Vector3& a) {
     Vector3 moved;

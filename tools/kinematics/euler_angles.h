@@ -1,4 +1,4 @@
-// Euler angles in the orders of BVH's channels and OpenSim's joints.
+// Euler angles in the orders of BVH's channels, OpenSim's joints and Plug-in Gait.
 #pragma once
 
 #include "core/geometry.h"
@@ -13,6 +13,9 @@ Matrix3 RotationZxy(const Vector3& zxy);
 
 /// Returns the angles z, y, x of R = Rz Ry Rx [rad].
 Vector3 AnglesZyx(const Matrix3& R);
+
+/// Returns the angles x, z, y of R = Rx Rz Ry [rad].
+Vector3 AnglesXzy(const Matrix3& R);
 
 /// Returns the equivalent angles that are nearest to others, so that curves have no jumps [rad].
 /// For any order of three different axes.

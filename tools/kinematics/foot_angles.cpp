@@ -27,7 +27,8 @@ FootAngles FootAnglesOf(const Matrix3& R_ShinFoot) {
     angles += step;
     if (step.norm() < kSmallStep_rad) break;
   }
-  return {.ankle = angles[0], .subtalar = angles[1], .about_shin = AnglesZxy(R_ShinFoot)};
+  const Vector3 zyx = AnglesZyx(R_ShinFoot);
+  return {.ankle = angles[0], .subtalar = angles[1], .about_shin = {zyx[0], zyx[2], zyx[1]}};
 }
 
 }  // namespace mocap

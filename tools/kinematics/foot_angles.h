@@ -14,7 +14,8 @@ struct FootAngles {
   /// About the slanting axes of Rajagopal's model (2016): toes up, and the sole inward.
   double ankle = kUnknown, subtalar = kUnknown;
   double toes = kUnknown;  ///< Up against the foot.
-  /// About the shin's axes z, x and y: toes up, the sole inward, toes inward.
+  /// Toes up, the sole inward, toes inward; the turns follow each other in the order toes up, toes
+  /// inward, sole inward (about z, y and x), as in Plug-in Gait.
   Vector3 about_shin = Vector3::Constant(kUnknown);
 };
 

@@ -144,8 +144,9 @@ HandAngles HandOf(const PosedSegments& posed, const PoseRow& row, const Limb& ar
                   const Matrix3& R_WT, const Turns& turns) {
   if (!Shows(row, arm.last)) return {};
   const Matrix3 R_WForearm = R_WT * RotationZxy(turns.zxy) * RotationZxy({turns.bend, 0, 0});
-  const Vector3 zxy = AnglesZxy(R_WForearm.transpose() * SimAxesOf(posed, arm.tip));
-  return {zxy[0], arm.side * zxy[1]};
+  const Matrix3 R_ForearmHand = R_WForearm.transpose() * SimAxesOf(posed, arm.tip);
+  const Vector3 zxy = AnglesZxy(R_ForearmHand), xzy = AnglesXzy(R_ForearmHand);
+  return {zxy[0], arm.side * zxy[1], {arm.side * xzy[0], -xzy[1], 0}};
 }
 
 class AngleReader {

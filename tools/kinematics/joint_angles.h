@@ -24,7 +24,10 @@ struct LimbAngles {
 /// the elbow bends [rad]; NaN: the result does not show the hand.
 struct HandAngles {
   double flexion = FootAngles::kUnknown;    ///< Towards the palm.
-  double deviation = FootAngles::kUnknown;  ///< Towards the little finger.
+  double deviation = FootAngles::kUnknown;  ///< Towards the little finger, after the flexion.
+  /// As in Plug-in Gait: first the deviation, then away from the palm. The hand's turn about itself
+  /// is 0, as it cannot be told from the forearm's.
+  Vector3 about_forearm = Vector3::Constant(FootAngles::kUnknown);
 };
 
 /// Angles with axes and order of Rajagopal's model (2016), about z, x and y of axes x forward, y

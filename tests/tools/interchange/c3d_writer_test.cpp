@@ -8,6 +8,8 @@
 #include <map>
 #include <sstream>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "core/errors.h"
 #include "tests/support/c3d_reader.h"
@@ -50,7 +52,7 @@ void ExpectPoints(const ReadC3d& c3d, std::size_t frame, const PoseRow& row,
                                                 {"LWRA", Point::kWristL}, {"RWRA", Point::kWristR}};
   for (const auto& [name, at] : markers) {
     const C3dPoint& point = c3d.Point(frame, prefix + name);
-    const Vector3 p_W = row.further_W.col(static_cast<int>(at) - kPointCount);
+    const Vector3 p_W = FurtherOf(row.further_W, at);
     EXPECT_LT((Vector3(point.x, point.y, point.z) - p_W).norm(), 0.01) << name;
   }
 }
@@ -162,49 +164,81 @@ TEST(C3dWriter, FramesWithoutTrackingAreNotSeenAndEventsTellOfThem) {
   }
 }
 
-/// Angles of somebody who stands, faces in a direction, and has turned one joint.
-Vector3 C3dAnglesOfTurn(const std::string& label, const std::string& joint, double degrees,
-                        double heading_rad = 0) {
+using JointTurns = std::vector<std::pair<const char*, double>>;
+
+/// Angles of somebody who stands with hanging arms and has turned some joints [degrees].
+Vector3 C3dAnglesOfTurns(const std::string& label, const JointTurns& turns,
+                         const Matrix3& R_WTorso) {
   const BodyModel body = GrownBody();
   PoseState pose = testing::Standing(body);
-  pose.X_WT.R = ExpRotation({0, 0, heading_rad});
+  pose.X_WT.R = R_WTorso;
   testing::Turn(body, "shoulder_l_x", -90, pose);
   testing::Turn(body, "shoulder_r_x", 90, pose);
-  testing::Turn(body, joint, degrees, pose);
+  for (const auto& [joint, degrees] : turns) testing::Turn(body, joint, degrees, pose);
   const C3dPoint point = WriteAndReadC3d(ResultOf(body, pose)).Point(0, label);
   EXPECT_GE(point.residual, 0) << label;
   return {point.x, point.y, point.z};
 }
 
-TEST(C3dWriter, AnglesHaveTheSignsOfPlugInGait) {
-  struct Case {
-    const char *joint, *label;
-    double degrees;
-    Vector3 wanted;
-  };
-  // The ankle's axis is oblique.
-  const Case cases[] = {{"ankle_l_y", "LAnkleAngles", 20, {-19.6390, 1.4693, 3.7694}},
-                        {"ankle_r_y", "RAnkleAngles", -15, {14.6511, -1.8903, -2.3819}},
-                        {"wrist_l_x", "LWristAngles", 20, {-20, 0, 0}},
-                        {"wrist_r_x", "RWristAngles", 20, {20, 0, 0}},
-                        {"wrist_l_z", "LWristAngles", -20, {0, -20, 0}},
-                        {"wrist_r_z", "RWristAngles", 20, {0, -20, 0}},
-                        {"waist_x", "LPelvisAngles", 10, {0, 10, 0}},
-                        {"waist_x", "RPelvisAngles", 10, {0, -10, 0}},
-                        {"waist_y", "LPelvisAngles", -10, {-10, 0, 0}},
-                        {"neck_y", "LHeadAngles", 20, {-20, 0, 0}},
-                        {"neck_x", "LHeadAngles", 20, {0, 20, 0}},
-                        {"neck_x", "RHeadAngles", 20, {0, -20, 0}}};
+/// With every heading.
+void ExpectC3dAngles(const std::string& label, const JointTurns& turns, const Vector3& wanted,
+                     const Vector3& torso_deg = Vector3::Zero()) {
   for (const double heading_rad : {0.0, 1.0, -2.5}) {
-    for (const Case& c : cases) {
-      const Vector3 angles = C3dAnglesOfTurn(c.label, c.joint, c.degrees, heading_rad);
-      EXPECT_LT((angles - c.wanted).norm(), 0.01)
-          << c.label << " of " << c.joint << ": " << angles.transpose();
-    }
+    const Matrix3 R_WTorso =
+        ExpRotation({0, 0, heading_rad}) * ExpRotation(torso_deg * (EIGEN_PI / 180));
+    const Vector3 angles = C3dAnglesOfTurns(label, turns, R_WTorso);
+    EXPECT_LT((angles - wanted).norm(), 0.01)
+        << label << " of " << (turns.empty() ? "leaning" : turns[0].first) << ": "
+        << angles.transpose();
   }
 }
 
-TEST(C3dWriter, WhoWalksTurnsThePelvisAgainstTheWay) {
+TEST(C3dWriter, AnglesHaveTheSignsOfPlugInGait) {
+  ExpectC3dAngles("LWristAngles", {{"wrist_l_x", 20}}, {-20, 0, 0});
+  ExpectC3dAngles("RWristAngles", {{"wrist_r_x", 20}}, {20, 0, 0});
+  ExpectC3dAngles("LWristAngles", {{"wrist_l_z", -20}}, {0, -20, 0});
+  ExpectC3dAngles("RWristAngles", {{"wrist_r_z", 20}}, {0, -20, 0});
+  ExpectC3dAngles("LPelvisAngles", {{"waist_x", 10}}, {0, 10, 0});
+  ExpectC3dAngles("RPelvisAngles", {{"waist_x", 10}}, {0, -10, 0});
+  ExpectC3dAngles("LPelvisAngles", {{"waist_y", -10}}, {-10, 0, 0});
+  ExpectC3dAngles("LHeadAngles", {{"neck_y", 20}}, {-20, 0, 0});
+  ExpectC3dAngles("LHeadAngles", {{"neck_x", 20}}, {0, 20, 0});
+  ExpectC3dAngles("RHeadAngles", {{"neck_x", 20}}, {0, -20, 0});
+  ExpectC3dAngles("LHeadAngles", {{"neck_z", 20}}, {0, 0, -20});
+  ExpectC3dAngles("RHeadAngles", {{"neck_z", 20}}, {0, 0, 20});
+}
+
+TEST(C3dWriter, ArmsLiftedToTheSideAreAbducted) {
+  ExpectC3dAngles("LShoulderAngles", {{"shoulder_l_x", -30}}, {0, 60, 0});
+  ExpectC3dAngles("RShoulderAngles", {{"shoulder_r_x", 30}}, {0, 60, 0});
+  // A leg that is lifted to the side is negative.
+  ExpectC3dAngles("LHipAngles", {{"hip_l_x", 30}}, {0, -30, 0});
+  ExpectC3dAngles("RHipAngles", {{"hip_r_x", -30}}, {0, -30, 0});
+}
+
+TEST(C3dWriter, ThoraxAnglesAreForwardAndTowardsTheOtherSide) {
+  for (const auto& [label, side] :
+       {std::pair("LThoraxAngles", 1.0), std::pair("RThoraxAngles", -1.0)}) {
+    ExpectC3dAngles(label, {}, {10, 0, 0}, {0, 10, 0});         // Leans forward.
+    ExpectC3dAngles(label, {}, {0, side * 10, 0}, {10, 0, 0});  // To the right.
+    // The pelvis, which tells where a standing person faces, turns left of it.
+    ExpectC3dAngles(label, {{"waist_z", 20}}, {0, 0, side * 20});
+  }
+}
+
+TEST(C3dWriter, AnkleAndWristTurnInTheOrderOfPlugInGait) {
+  // From the product of both turns: toes up, toes inward, sole inward. The axes are oblique.
+  ExpectC3dAngles("LAnkleAngles", {{"ankle_l_y", 20}}, {-19.5423, 1.4723, 3.7678});
+  ExpectC3dAngles("RAnkleAngles", {{"ankle_r_y", -15}}, {14.7297, -1.8917, -2.3803});
+  ExpectC3dAngles("LAnkleAngles", {{"ankle_l_y", -20}, {"subtalar_l_x", 15}},
+                  {18.3667, 9.1450, 6.0912});
+  ExpectC3dAngles("RAnkleAngles", {{"ankle_r_y", 15}, {"subtalar_r_x", 25}},
+                  {-14.7127, 21.0101, 18.1301});
+  ExpectC3dAngles("LWristAngles", {{"wrist_l_x", 20}, {"wrist_l_z", -30}}, {-20, -30, 0});
+  ExpectC3dAngles("RWristAngles", {{"wrist_r_x", 20}, {"wrist_r_z", 30}}, {20, -30, 0});
+}
+
+TEST(C3dWriter, WhoWalksTurnsThePelvisAgainstTheDirectionOfWalking) {
   for (const double heading_rad : {0.0, 2.0}) {
     Result result = testing::WalkingResult(60, heading_rad);
     const BodyModel body = GrownBody();

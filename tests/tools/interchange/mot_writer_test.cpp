@@ -175,6 +175,14 @@ TEST(FootAngles, ToesUpAndTheSoleInwardArePositive) {
   EXPECT_NEAR(inward.about_shin[1], 0.3, 1e-9);
 }
 
+TEST(FootAngles, AboutTheShinAreToesUpThenInwardThenTheSoleInward) {
+  constexpr double kDegree = EIGEN_PI / 180;
+  const Matrix3 R_ShinFoot = ExpRotation({0, 0, 30 * kDegree}) * ExpRotation({0, 20 * kDegree, 0}) *
+                             ExpRotation({10 * kDegree, 0, 0});
+  const Vector3 degrees = FootAnglesOf(R_ShinFoot).about_shin / kDegree;
+  EXPECT_LT((degrees - Vector3(30, 10, 20)).norm(), 1e-6) << degrees.transpose();
+}
+
 TEST(MotWriter, BothFeetHaveTheSameSigns) {
   for (const double degrees : {-20.0, 15.0}) {
     const Row left = AnglesOfTurn("ankle_l_y", degrees), right = AnglesOfTurn("ankle_r_y", degrees);
