@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <string>
+#include <vector>
 
 #include "config/load_config.h"
 #include "core/body/body_model.h"
@@ -87,6 +88,36 @@ inline void MakeOld(Result& result) {
   for (PoseRow& row : result.poses) {
     row.further_W.setConstant(std::nan(""));
     row.joint_rad.resize(0);
+  }
+}
+
+/// Forgets what a frame does not have if its message MOCAP_DETAILS was lost.
+inline void LoseDetails(PoseRow& row) {
+  row.further_W.setConstant(std::nan(""));
+  row.further_std_mm.setConstant(std::nan(""));
+  row.contacts = kUnknownContacts;
+  row.probability = std::nan("");
+}
+
+/// Makes a result of the body `full` as earlier versions had it: without the points that follow the
+/// 23, with a second axis of the ankle in place of the subtalar joint, and without joints of the
+/// toes and about the neck's length.
+inline void MakeOfEarlierFull(Result& result) {
+  const std::vector<JointRecord> joints = result.body.joints;
+  std::vector<Eigen::Index> kept;
+  result.body.joints.clear();
+  for (std::size_t i = 0; i < joints.size(); ++i) {
+    JointRecord joint = joints[i];
+    if (joint.name.starts_with("toes_") || joint.name == "neck_z") continue;
+    if (joint.name == "subtalar_l_x") joint.name = "ankle_l_z";
+    if (joint.name == "subtalar_r_x") joint.name = "ankle_r_z";
+    result.body.joints.push_back(joint);
+    kept.push_back(static_cast<Eigen::Index>(i));
+  }
+  MOCAP_CHECK(kept.size() == 33);
+  for (PoseRow& row : result.poses) {
+    LoseDetails(row);
+    row.joint_rad = JointAngles(row.joint_rad(kept));
   }
 }
 

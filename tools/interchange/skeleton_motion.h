@@ -42,8 +42,8 @@ struct SkeletonMotion {
 JointOffsets RestPlaces(const BodyRecord& body);
 
 /// Makes the skeleton's motion from the tracked frames. Joints are at the points, and turn as the
-/// segments do: see SegmentPoser. Feet and hands without points of their own are fixed to shin and
-/// forearm.
+/// segments do: see SegmentPoser. The feet of earlier versions, without points of their own, are
+/// fixed to the shin.
 /// @throws SetupError  when no frame is tracked, and as RequireShortGap.
 SkeletonMotion MakeSkeletonMotion(const Result& result,
                                   const Skeleton& skeleton = MocapdSkeleton());

@@ -49,7 +49,23 @@ void PlaceMissing(Segment segment, Point joint, const BodyPlaces& rest_T, PosedS
   }
 }
 
+bool HasPoint(const PoseRow& row, Point point) {
+  return static_cast<int>(point) < kPointCount || FurtherOf(row.further_W, point).allFinite();
+}
+
 }  // namespace
+
+Matrix3 PosedSegments::RotationFromHanging(Segment segment) const {
+  constexpr double kQuarter_rad = EIGEN_PI / 2;
+  const bool is_left = segment == Segment::kUpperArmL || segment == Segment::kLowerArmL ||
+                       segment == Segment::kHandL;
+  const bool is_right = segment == Segment::kUpperArmR || segment == Segment::kLowerArmR ||
+                        segment == Segment::kHandR;
+  if (!is_left && !is_right) return RotationOf(segment);
+  // The reference holds the arms out.
+  return RotationOf(segment) *
+         ExpRotation((is_left ? kQuarter_rad : -kQuarter_rad) * Vector3::UnitX());
+}
 
 SegmentPoser::SegmentPoser(const BodyRecord& body)
     : rest_(body), model_(rest_.table(), rest_.sizes()) {
@@ -60,7 +76,7 @@ SegmentPoser::SegmentPoser(const BodyRecord& body)
 }
 
 JointAngles SegmentPoser::AnglesIn(const PoseRow& row) const {
-  JointAngles theta = JointAngles::Zero(model_.joint_count());
+  JointAngles theta = JointAngles::Constant(model_.joint_count(), std::nan(""));
   for (int i = 0; i < model_.joint_count(); ++i) {
     const Eigen::Index place = record_place_[i];
     const int angle = model_.table().joints[i].paper_angle;
@@ -73,9 +89,20 @@ JointAngles SegmentPoser::AnglesIn(const PoseRow& row) const {
   return theta;
 }
 
+bool SegmentPoser::HasAngles(const JointAngles& theta, Segment segment, Segment parent) const {
+  const BodyTable& table = model_.table();
+  const int end = table.carrier[static_cast<int>(parent)];
+  for (int i = table.carrier[static_cast<int>(segment)]; i >= 0 && i != end;
+       i = table.joints[i].parent) {
+    if (std::isnan(theta[i])) return false;
+  }
+  return true;
+}
+
 PosedSegments SegmentPoser::Pose(const PoseRow& row) const {
-  const Posture posture =
-      model_.PostureAt({{TorsoRotation(row), row.paper.torso_mm}, AnglesIn(row)});
+  const JointAngles theta = AnglesIn(row);
+  const Posture posture = model_.PostureAt(
+      {{TorsoRotation(row), row.paper.torso_mm}, theta.array().isNaN().select(0, theta)});
   const auto by_angles = [&](Segment segment) -> const Matrix3& {
     const int carrier = model_.table().carrier[static_cast<int>(segment)];
     return carrier < 0 ? posture.X_WT.R : posture.X_W[carrier].R;
@@ -91,8 +118,10 @@ PosedSegments SegmentPoser::Pose(const PoseRow& row) const {
   PlaceMissing(Segment::kTorso, Point::kTorso, rest_T, posed);
   for (const AimedSegment& bone : kAimedSegments) {
     Matrix3& R = posed.R_W[static_cast<int>(bone.segment)];
-    R = posed.RotationOf(bone.parent) * by_angles(bone.parent).transpose() *
-        by_angles(bone.segment);
+    R = posed.RotationOf(bone.parent);
+    const bool is_shown = HasPoint(row, bone.joint) && HasPoint(row, bone.target);
+    if (is_shown || HasAngles(theta, bone.segment, bone.parent))
+      R *= by_angles(bone.parent).transpose() * by_angles(bone.segment);
     const Vector3 direction_W = along(posed.places_W, bone);
     if (direction_W.allFinite())
       R = RotationBetween(R * along(rest_T, bone), direction_W).toRotationMatrix() * R;

@@ -18,7 +18,8 @@ struct PosedSegments {
   BodyPlaces places_W;
 
   const Matrix3& RotationOf(Segment segment) const { return R_W[static_cast<int>(segment)]; }
-  Vector3 At(Point point) const { return places_W.col(static_cast<int>(point)); }
+  /// From a person who stands with hanging arms, where each is the identity.
+  Matrix3 RotationFromHanging(Segment segment) const;
 };
 
 /// Poses the segments of a body by the rows of its result.
@@ -30,12 +31,17 @@ class SegmentPoser {
 
   /// Computes the segments' rotations from the joint angles (Mikić et al. 2003, Eqs. 10–12). Then
   /// turns each segment by the shortest rotation to where its bone points, because angles may be
-  /// missing, and sizes may have changed since. Angles that a row does not have count as 0.
+  /// missing, and sizes may have changed since. Angles that a row does not have count as 0. A
+  /// segment of which the row has neither all angles nor the points keeps the rotation to its
+  /// parent that it has in the reference: of the feet of earlier versions, whose joints had other
+  /// axes.
   /// @pre  the row has a pose.
   PosedSegments Pose(const PoseRow& row) const;
 
  private:
+  /// Returns the angles in the order of the body's table; NaN: the row does not have it.
   JointAngles AnglesIn(const PoseRow& row) const;
+  bool HasAngles(const JointAngles& theta, Segment segment, Segment parent) const;
 
   RestBody rest_;
   BodyModel model_;

@@ -109,8 +109,8 @@ TEST(BvhWriter, JointsTurnAsTheSegmentsDo) {
 
 TEST(BvhWriter, ALimbThatTurnsAboutItselfTurnsItsJoint) {
   const BodyModel body = GrownBody();
-  for (const auto& [turn, joint] : {std::pair("shoulder_l_y", "LeftArm Yrotation"),
-                                    std::pair("hip_r_z", "RightUpLeg Yrotation")}) {
+  for (const auto& [turn, joint] :
+       {std::pair("shoulder_l_y", "LeftArm"), std::pair("hip_r_z", "RightUpLeg")}) {
     double last = 0;
     Result result{RecordOf(body), {}};
     for (int degrees = 0; degrees <= 40; ++degrees) {
@@ -119,11 +119,10 @@ TEST(BvhWriter, ALimbThatTurnsAboutItselfTurnsItsJoint) {
       Append(body, pose, result);
     }
     const ReadBvh bvh = WrittenBvh(result);
-    const std::string name = std::string(joint).substr(0, std::string(joint).find(' '));
     for (std::size_t i = 1; i < bvh.frames.size(); ++i) {
-      const Matrix3 R = JointsAt(bvh, i).at(name).linear();
+      const Matrix3 R = JointsAt(bvh, i).at(joint).linear();
       const double turned = Eigen::AngleAxisd(R).angle() / kBvhDegree;
-      EXPECT_NEAR(turned - last, 1, 1e-3) << name << ' ' << i;
+      EXPECT_NEAR(turned - last, 1, 1e-3) << joint << ' ' << i;
       last = turned;
     }
   }
@@ -142,6 +141,37 @@ TEST(BvhWriter, BonesOfOldResultsPointAtTheirPoints) {
       const Eigen::Vector3d shin = (places.at("LeftLeg") - sole).normalized();
       EXPECT_NEAR(shin.dot(places.at("LeftToe_end") - sole), 0, 0.01) << "fixed to the shin";
     }
+  }
+}
+
+TEST(BvhWriter, FeetOfEarlierVersionsAreFixedToTheShinAndHandsTurn) {
+  const BodyModel body = GrownBody();
+  Result result = SwingingResult(60, body);
+  testing::MakeOfEarlierFull(result);
+  const ReadBvh bvh = WrittenBvh(result);
+  for (int i = 0; i < 60; ++i) {
+    const auto joints = JointsAt(bvh, i);
+    for (const std::string side : {"Left", "Right"}) {
+      const Matrix3 R_shin = joints.at(side + "Leg").linear();
+      EXPECT_TRUE(joints.at(side + "Foot").linear().isApprox(R_shin, 1e-5)) << side << ' ' << i;
+      EXPECT_TRUE(joints.at(side + "Toe").linear().isApprox(R_shin, 1e-5)) << side << ' ' << i;
+    }
+    for (const auto& [name, segment] : Segments()) {
+      if (name.ends_with("Foot") || name.ends_with("Toe") || segment == Segment::kHead) continue;
+      const Matrix3 wanted = AxesOf(body, Swinging(body, 0.04 * i), segment);
+      EXPECT_TRUE(joints.at(name).linear().isApprox(wanted, 1e-5)) << name << ' ' << i;
+    }
+  }
+}
+
+TEST(BvhWriter, AFrameThatLostItsDetailsKeepsItsFeet) {
+  const BodyModel body = GrownBody();
+  Result result = SwingingResult(3, body);
+  testing::LoseDetails(result.poses[1]);
+  const ReadBvh bvh = WrittenBvh(result);
+  for (const auto& [name, segment] : Segments()) {
+    const Matrix3 wanted = AxesOf(body, Swinging(body, 0.04), segment);
+    EXPECT_TRUE(JointsAt(bvh, 1).at(name).linear().isApprox(wanted, 1e-5)) << name;
   }
 }
 
