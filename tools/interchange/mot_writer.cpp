@@ -66,18 +66,43 @@ std::string MotHeader(std::size_t rows) {
 
 std::string MotRow(const MotValues& values, double time_s) {
   std::string line = FixedText(time_s, 6);
-  for (const double value : values) line += '\t' + FixedText(std::isnan(value) ? 0 : value, 6);
+  for (const double value : values) line += '\t' + FixedText(value, 6);
   return line + '\n';
 }
 
-/// The coordinates that no frame measures.
-std::vector<std::string_view> HeldCoordinates(std::span<const MotValues> rows) {
-  std::vector<std::string_view> held;
-  for (std::size_t i = 0; i < kModelCoordinates.size(); ++i) {
-    const auto is_held = [i](const MotValues& row) { return std::isnan(row[i]); };
-    if (std::ranges::all_of(rows, is_held)) held.push_back(kModelCoordinates[i]);
+/// What a file has in place of unknown values.
+struct FilledIn {
+  std::vector<std::string_view> zeros;  ///< Coordinates that no frame shows.
+  std::size_t held_frames = 0;          ///< Frames without a coordinate that others show.
+};
+
+/// Replaces the unknown values of a coordinate that some rows know, each by the last known one
+/// before it, or else by the first one.
+void HoldKnown(std::span<MotValues> rows, std::size_t coordinate, std::size_t first_known) {
+  double last = rows[first_known][coordinate];
+  for (MotValues& row : rows) {
+    double& value = row[coordinate];
+    if (std::isnan(value)) value = last;
+    last = value;
   }
-  return held;
+}
+
+FilledIn FillIn(std::span<MotValues> rows) {
+  FilledIn filled;
+  std::vector<bool> is_held(rows.size());
+  for (std::size_t i = 0; i < kModelCoordinates.size(); ++i) {
+    const auto is_known = [i](const MotValues& row) { return !std::isnan(row[i]); };
+    const auto known = std::ranges::find_if(rows, is_known);
+    if (known == rows.end()) {
+      filled.zeros.push_back(kModelCoordinates[i]);
+      for (MotValues& row : rows) row[i] = 0;
+      continue;
+    }
+    for (std::size_t k = 0; k < rows.size(); ++k) is_held[k] = is_held[k] || !is_known(rows[k]);
+    HoldKnown(rows, i, static_cast<std::size_t>(known - rows.begin()));
+  }
+  filled.held_frames = static_cast<std::size_t>(std::ranges::count(is_held, true));
+  return filled;
 }
 
 }  // namespace
@@ -89,11 +114,16 @@ ExportRemarks WriteMot(const ExportScene& scene, std::ostream& out) {
   std::vector<MotValues> rows;
   std::ranges::transform(frames, std::back_inserter(rows), ValuesOf);
   const std::int64_t first_ns = scene.moments.front().timestamp_ns;
+  const FilledIn filled = FillIn(rows);
   out << MotHeader(rows.size());
   for (std::size_t i = 0; i < rows.size(); ++i)
     out << MotRow(rows[i], 1e-9 * static_cast<double>(frames[i].time_ns - first_ns));
   ExportRemarks remarks = {
-      fmt::format("not measured, and 0 in the file: {}", fmt::join(HeldCoordinates(rows), ", "))};
+      fmt::format("not measured, and 0 in the file: {}", fmt::join(filled.zeros, ", "))};
+  if (filled.held_frames > 0) {
+    remarks.push_back(Counted(filled.held_frames, "frame") +
+                      " without feet or hands; their last angles are held");
+  }
   const std::size_t untracked = result.poses.size() - frames.size();
   if (untracked > 0) {
     remarks.push_back(Counted(untracked, "frame") + (untracked == 1

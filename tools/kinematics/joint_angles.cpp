@@ -65,30 +65,27 @@ Turns TurnsOf(const Vector3& upper, const Vector3& lower, Bends bends,
 /// A segment's OpenSim axes, which are the world's for a person who stands facing world x with
 /// hanging arms.
 Matrix3 SimAxesOf(const PosedSegments& posed, Segment segment) {
-  Matrix3 R_hanging = Matrix3::Identity();
-  if (segment == Segment::kHandL) R_hanging = ExpRotation(-kQuarter_rad * Vector3::UnitX());
-  if (segment == Segment::kHandR) R_hanging = ExpRotation(kQuarter_rad * Vector3::UnitX());
-  return posed.RotationOf(segment) * R_hanging.transpose() * SimFromBody().transpose();
+  return posed.RotationFromHanging(segment) * SimFromBody().transpose();
 }
 
 /// Axes x ahead, y up, z right of a person who walks.
 /// @param R_WPelvis  OpenSim axes.
-/// @param way_W  direction of walking; zero: stands.
-Matrix3 WalkerAxes(const Matrix3& R_WPelvis, const Vector3& way_W) {
+/// @param direction_W  of walking; zero: stands.
+Matrix3 WalkerAxes(const Matrix3& R_WPelvis, const Vector3& direction_W) {
   // Whoever goes more sideways than this, by 45 degrees, has no direction of gait.
   constexpr double kAlong = 0.7071;
   Vector3 facing_W(R_WPelvis(0, 0), R_WPelvis(1, 0), 0);
   facing_W = facing_W.isZero(1e-6) ? Vector3(Vector3::UnitX()) : Vector3(facing_W.normalized());
-  const double along = way_W.dot(facing_W);
+  const double along = direction_W.dot(facing_W);
   const Vector3 ahead =
-      std::abs(along) < kAlong ? facing_W : Vector3(std::copysign(1.0, along) * way_W);
+      std::abs(along) < kAlong ? facing_W : Vector3(std::copysign(1.0, along) * direction_W);
   Matrix3 R;
   R << ahead, Vector3::UnitZ(), ahead.cross(Vector3::UnitZ());
   return R;
 }
 
 /// Direction of walking in each tracked frame; zero: stands.
-std::vector<Vector3> WaysOf(const Result& result) {
+std::vector<Vector3> WalkingDirectionsOf(const Result& result) {
   GaitRun frames;
   for (const PoseRow& row : result.poses) {
     if (!IsTracked(row)) continue;
@@ -100,7 +97,7 @@ std::vector<Vector3> WaysOf(const Result& result) {
 }
 
 bool Shows(const PoseRow& row, Point further) {
-  return row.further_W.col(static_cast<int>(further) - kPointCount).allFinite();
+  return FurtherOf(row.further_W, further).allFinite();
 }
 
 struct Limb {
@@ -151,16 +148,19 @@ HandAngles HandOf(const PosedSegments& posed, const PoseRow& row, const Limb& ar
 
 class AngleReader {
  public:
-  explicit AngleReader(const BodyRecord& body) : segments_(body) {}
+  explicit AngleReader(const Result& result)
+      : segments_(result.body),
+        has_foot_l_(ShowsInAny(result, kLegL.last)),
+        has_foot_r_(ShowsInAny(result, kLegR.last)) {}
 
-  /// @param way_W  direction of walking; zero: stands.
-  BodyAngles Read(const PoseRow& row, const Vector3& way_W) {
+  /// @param direction_W  of walking; zero: stands.
+  BodyAngles Read(const PoseRow& row, const Vector3& direction_W) {
     const PosedSegments posed = segments_.Pose(row);
     const Matrix3 R_GW = YUpFromWorld();
     const Matrix3 R_WP = SimAxesOf(posed, Segment::kPelvis);
     const Matrix3 R_WT = SimAxesOf(posed, Segment::kTorso);
     const Matrix3 R_GP = R_GW * R_WP;
-    const Matrix3 R_WalkerW = WalkerAxes(R_WP, way_W).transpose();
+    const Matrix3 R_WalkerW = WalkerAxes(R_WP, direction_W).transpose();
     const double scale =
         1e-3 * (At(row, Point::kHipL) - At(row, Point::kHipR)).norm() / kHipsApart_m;
     BodyAngles angles;
@@ -175,8 +175,10 @@ class AngleReader {
     angles.walker_pelvis = Follow(in_walker(Segment::kPelvis), last_.walker_pelvis);
     angles.walker_torso = Follow(in_walker(Segment::kTorso), last_.walker_torso);
     angles.walker_head = Follow(in_walker(Segment::kHead), last_.walker_head);
-    ReadLeg(row, posed, kLegL, last_.leg_l, angles.leg_l, angles.foot_l);
-    ReadLeg(row, posed, kLegR, last_.leg_r, angles.leg_r, angles.foot_r);
+    angles.leg_l = LegOf(row, posed, kLegL, has_foot_l_, last_.leg_l);
+    angles.leg_r = LegOf(row, posed, kLegR, has_foot_r_, last_.leg_r);
+    angles.foot_l = FootOf(posed, row, kLegL);
+    angles.foot_r = FootOf(posed, row, kLegR);
     ReadArm(row, posed, kArmL, last_.arm_l, angles.arm_l, angles.hand_l);
     ReadArm(row, posed, kArmR, last_.arm_r, angles.arm_r, angles.hand_r);
     return angles;
@@ -206,14 +208,18 @@ class AngleReader {
     return turns;
   }
 
-  static void ReadLeg(const PoseRow& row, const PosedSegments& posed, const Limb& limb,
-                      Vector3& last, LimbAngles& angles, FootAngles& foot) {
+  static bool ShowsInAny(const Result& result, Point further) {
+    return std::ranges::any_of(result.poses,
+                               [&](const PoseRow& row) { return Shows(row, further); });
+  }
+
+  /// @param has_foot  whether the tracker knows the leg's rotation about itself, by the foot.
+  static LimbAngles LegOf(const PoseRow& row, const PosedSegments& posed, const Limb& leg,
+                          bool has_foot, Vector3& last) {
     const Matrix3 R_WP = SimAxesOf(posed, Segment::kPelvis);
     std::optional<double> rotation;
-    if (Shows(row, limb.last))
-      rotation = AnglesZxy(R_WP.transpose() * SimAxesOf(posed, limb.upper))[2];
-    angles = AnglesIn(TurnsIn(row, limb, R_WP, rotation, last), limb.side);
-    foot = FootOf(posed, row, limb);
+    if (has_foot) rotation = AnglesZxy(R_WP.transpose() * SimAxesOf(posed, leg.upper))[2];
+    return AnglesIn(TurnsIn(row, leg, R_WP, rotation, last), leg.side);
   }
 
   static void ReadArm(const PoseRow& row, const PosedSegments& posed, const Limb& limb,
@@ -225,6 +231,7 @@ class AngleReader {
   }
 
   SegmentPoser segments_;
+  bool has_foot_l_, has_foot_r_;  ///< In any row: single ones may have lost their feet.
   Last last_;
 };
 
@@ -257,10 +264,10 @@ std::array<double, kCoordinateNames.size()> CoordinatesOf(const BodyAngles& angl
 
 std::vector<BodyAngles> AnglesOf(const Result& result) {
   std::vector<BodyAngles> angles;
-  AngleReader reader(result.body);
-  const std::vector<Vector3> ways = WaysOf(result);
+  AngleReader reader(result);
+  const std::vector<Vector3> directions_W = WalkingDirectionsOf(result);
   for (const PoseRow& row : result.poses) {
-    if (IsTracked(row)) angles.push_back(reader.Read(row, ways[angles.size()]));
+    if (IsTracked(row)) angles.push_back(reader.Read(row, directions_W[angles.size()]));
   }
   return angles;
 }

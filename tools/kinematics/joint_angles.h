@@ -38,7 +38,8 @@ struct BodyAngles {
   Vector3 pelvis;     ///< Tilt, list and rotation relative to the ground.
   Vector3 lumbar;     ///< Extension, bending and rotation of the torso relative to the pelvis.
   /// Tilt (leaning back), list (to the right) and rotation (turned left) in the walker's frame: x
-  /// in the direction of walking, or where the pelvis faces if the person stands or walks backward.
+  /// is the direction of walking; the opposite of it for who walks backward; and where the pelvis
+  /// faces for who stands, or goes more than 45 degrees sideways.
   Vector3 walker_pelvis, walker_torso, walker_head;
   LimbAngles leg_l, leg_r, arm_l, arm_r;
   FootAngles foot_l, foot_r;
@@ -62,9 +63,9 @@ std::array<double, kCoordinateNames.size()> CoordinatesOf(const BodyAngles& angl
 /// Computes the angles of all tracked frames, without jumps by whole turns.
 ///
 /// OpenSim's ground is that of TRC: see YUpFromWorld. A leg's rotation about its own axis is that
-/// of the tracked thigh, which the foot shows. Without feet, and for arms, it follows from the
-/// plane of the bent knee or elbow. For a nearly straight limb this plane is undefined, and the
-/// rotation fades to 0.
+/// of the tracked thigh, which the foot shows. In results without feet, and for arms, it follows
+/// from the plane of the bent knee or elbow. For a nearly straight limb this plane is undefined,
+/// and the rotation fades to 0.
 std::vector<BodyAngles> AnglesOf(const Result& result);
 
 }  // namespace mocap

@@ -81,6 +81,27 @@ TEST(MotWriter, HoldsWhatAnOldResultDoesNotShowAndSaysSo) {
   }
 }
 
+TEST(MotWriter, HoldsTheLastAnglesOfFeetAndHandsThatAFrameLacks) {
+  const Result whole = SwingingResult(12);
+  Result result = whole;
+  for (const std::size_t i : {0u, 5u, 6u}) testing::LoseDetails(result.poses[i]);
+  const ExportSubject subject{"", result};
+  std::stringstream text;
+  EXPECT_THAT(WriteMot({std::span(&subject, 1), result.poses, "walk.mot"}, text),
+              ::testing::ElementsAre("not measured, and 0 in the file: pro_sup_r, pro_sup_l",
+                                     "3 frames without feet or hands; their last angles are held"));
+  const ReadMot mot = WriteAndReadMot(result), wanted = WriteAndReadMot(whole);
+  for (std::size_t i = 0; i < 12; ++i) {
+    const bool is_held = i == 0 || i == 5 || i == 6;
+    const std::size_t shown = i == 0 ? 1 : is_held ? 4 : i;
+    for (const char* name : {"ankle_angle_l", "subtalar_angle_r", "mtp_angle_l", "wrist_flex_r"})
+      EXPECT_EQ(mot.rows.at(i).at(name), wanted.rows.at(shown).at(name)) << name << ' ' << i;
+    // The thigh is tracked all the same.
+    EXPECT_NEAR(mot.rows.at(i).at("hip_rotation_l"), wanted.rows.at(i).at("hip_rotation_l"), 1e-3)
+        << i;
+  }
+}
+
 /// The angles of somebody who stands with hanging arms and turns one joint.
 Row AnglesOfTurn(const std::string& joint, double degrees) {
   const BodyModel body = GrownBody();
