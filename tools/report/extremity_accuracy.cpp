@@ -2,12 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <optional>
 #include <utility>
 
-#include "core/body/body_model.h"
 #include "core/degrees.h"
-#include "tools/kinematics/rest_body.h"
+#include "tools/kinematics/posed_segments.h"
 #include "tools/report/foot_contacts.h"
 
 namespace mocap {
@@ -42,13 +40,13 @@ double AngleBetween(const Vector3& a, const Vector3& b) {
   return std::atan2(a.cross(b).norm(), a.dot(b));
 }
 
+Point OnSide(Point left, int side) { return static_cast<Point>(static_cast<int>(left) + side); }
+
 /// Angle between shank and sole: from the heel to the toe, or from the ankle where the truth has no
 /// heel.
 double AnkleFlexion(const Vector3& knee_W, const FurtherPoints& further_W, int side,
                     bool has_heel) {
-  const auto at = [&](Point point) -> Vector3 {
-    return further_W.col(static_cast<int>(point) - kPointCount + side);
-  };
+  const auto at = [&](Point point) -> Vector3 { return FurtherOf(further_W, OnSide(point, side)); };
   const Vector3 ankle_W = at(Point::kAnkleL);
   return AngleBetween(knee_W - ankle_W,
                       at(Point::kToeL) - (has_heel ? at(Point::kHeelL) : ankle_W));
@@ -62,9 +60,8 @@ Vector3 TrueKnee(const ScoredPoints& points_W, int side) {
 void AddAnkles(const PoseRow& row, const ScoredFrame& frame, const TrueExtremities& truth,
                ErrorsByName& angles_deg) {
   for (const int side : {0, 1}) {
-    const Point heel = side == 0 ? Point::kHeelL : Point::kHeelR;
-    const bool has_heel = truth.points_W.col(static_cast<int>(heel) - kPointCount).allFinite();
-    const Vector3 knee_W = row.points_W.col(static_cast<int>(Point::kKneeL) + side);
+    const bool has_heel = FurtherOf(truth.points_W, OnSide(Point::kHeelL, side)).allFinite();
+    const Vector3 knee_W = At(row, OnSide(Point::kKneeL, side));
     const double error_rad =
         AnkleFlexion(knee_W, row.further_W, side, has_heel) -
         AnkleFlexion(TrueKnee(frame.points_W, side), truth.points_W, side, has_heel);
@@ -72,37 +69,6 @@ void AddAnkles(const PoseRow& row, const ScoredFrame& frame, const TrueExtremiti
                    std::abs(error_rad) * kDegreesPerRad);
   }
 }
-
-/// Orientations of kTurnedSegmentNames in a result.
-class SegmentReader {
- public:
-  explicit SegmentReader(const BodyRecord& body)
-      : rest_(body), model_(rest_.table(), rest_.sizes()) {}
-
-  /// Empty if the angles are not known.
-  std::optional<std::array<Matrix3, 3>> Read(const PoseRow& row) const {
-    if (row.joint_rad.size() != model_.joint_count() || !row.joint_rad.allFinite())
-      return std::nullopt;
-    const Posture posture =
-        model_.PostureAt({{TorsoRotation(row), row.paper.torso_mm}, row.joint_rad});
-    const auto rotation = [&](Point point) -> Matrix3 {
-      const int carrier = model_.CarrierOf(point);
-      return carrier < 0 ? posture.X_WT.R : posture.X_W[static_cast<std::size_t>(carrier)].R;
-    };
-    // Arms hang in the true frames, and are held out in the body's reference.
-    return std::array<Matrix3, 3>{rotation(Point::kHead),
-                                  rotation(Point::kKnucklesL) * HangingInReference(1),
-                                  rotation(Point::kKnucklesR) * HangingInReference(-1)};
-  }
-
- private:
-  static Matrix3 HangingInReference(double side) {
-    return ExpRotation(side * EIGEN_PI / 2 * Vector3::UnitX());
-  }
-
-  RestBody rest_;
-  BodyModel model_;
-};
 
 void AddHead(const Matrix3& R_error, ErrorsByName& angles_deg) {
   const Vector3 turn_deg = LogRotation(R_error) * kDegreesPerRad;
@@ -119,17 +85,25 @@ void AddHand(const Matrix3& R_error, const std::string& side, ErrorsByName& angl
   angles_deg.Add("hand_turn" + side, std::abs(turn_rad) * kDegreesPerRad);
 }
 
-void AddSegments(const SegmentReader& reader, const PoseRow& row, const TrueExtremities& truth,
-                 ErrorsByName& angles_deg) {
-  if (!truth.rotations.allFinite()) return;
-  const auto segments = reader.Read(row);
-  if (!segments) return;
-  const auto error = [&](int i) -> Matrix3 {
-    return ExpRotation(truth.rotations.col(i)).transpose() * (*segments)[i];
+/// Whether a body has the joint by which the head turns about its length.
+bool TurnsHead(const BodyRecord& body) {
+  return std::ranges::find(body.joints, "neck_z", &JointRecord::name) != body.joints.end();
+}
+
+void AddSegments(const SegmentPoser& segments, bool turns_head, const PoseRow& row,
+                 const TrueExtremities& truth, ErrorsByName& angles_deg) {
+  const bool has_angles = row.joint_rad.size() > 0 && row.joint_rad.allFinite();
+  if (!truth.rotations.allFinite() || !has_angles) return;
+  const PosedSegments posed = segments.Pose(row);
+  const auto error = [&](int i, Segment segment) -> Matrix3 {
+    return ExpRotation(truth.rotations.col(i)).transpose() * posed.RotationFromHanging(segment);
   };
-  AddHead(error(0), angles_deg);
-  AddHand(error(1), "_l", angles_deg);
-  AddHand(error(2), "_r", angles_deg);
+  const auto has_hand = [&](Point knuckles) {
+    return FurtherOf(row.further_W, knuckles).allFinite();
+  };
+  if (turns_head) AddHead(error(0, Segment::kHead), angles_deg);
+  if (has_hand(Point::kKnucklesL)) AddHand(error(1, Segment::kHandL), "_l", angles_deg);
+  if (has_hand(Point::kKnucklesR)) AddHand(error(2, Segment::kHandR), "_r", angles_deg);
 }
 
 void AddPoints(const PoseRow& row, const TrueExtremities& truth, ErrorsByName& points_mm) {
@@ -189,13 +163,14 @@ ExtremityAccuracy MeasureExtremities(const Result& result, const TakeTruth& trut
   ExtremityAccuracy accuracy;
   if (truth.extremities.empty() || frames.empty()) return accuracy;
   ErrorsByName points_mm, angles_deg;
-  const SegmentReader reader(result.body);
+  const SegmentPoser segments(result.body);
+  const bool turns_head = TurnsHead(result.body);
   for (const FrameError& frame : frames) {
     const PoseRow& row = result.poses[static_cast<std::size_t>(frame.pose)];
     const auto at = static_cast<std::size_t>(frame.truth);
     AddPoints(row, truth.extremities[at], points_mm);
     AddAnkles(row, truth.frames[at], truth.extremities[at], angles_deg);
-    AddSegments(reader, row, truth.extremities[at], angles_deg);
+    AddSegments(segments, turns_head, row, truth.extremities[at], angles_deg);
   }
   accuracy.points_mm = points_mm.Summary();
   accuracy.angles_deg = angles_deg.Summary();

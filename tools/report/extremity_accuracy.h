@@ -40,7 +40,8 @@ struct Skating {
 /// Parts of a foot that touch the floor.
 inline constexpr std::array<std::string_view, 2> kFootPartNames = {"heel", "toe"};
 
-/// Figures are left out where truth or result do not have them.
+/// Figures are left out where truth or result do not have them, such as those of the hands of a
+/// body without hands, and of a head that cannot turn about its length.
 struct ExtremityAccuracy {
   std::vector<FigureErrors> points_mm;
   /// ankle_flexion_l and _r: angle between shank and sole. head_yaw, head_pitch, head_roll:
@@ -61,8 +62,8 @@ inline constexpr double kContactTolerance_s = 0.033;
 /// Likelier contacts count as contacts.
 inline constexpr double kContactProbability = 0.5;
 
-/// Measures a result in frames that have truth. Angles of head and hands follow from its joint
-/// angles and its body table.
+/// Measures a result in frames that have truth. Angles of head and hands follow from its segments:
+/// see SegmentPoser.
 /// @param frames  in order of time.
 ExtremityAccuracy MeasureExtremities(const Result& result, const TakeTruth& truth,
                                      std::span<const FrameError> frames);

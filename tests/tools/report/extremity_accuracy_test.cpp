@@ -4,6 +4,7 @@
 
 #include "config/load_config.h"
 #include "core/degrees.h"
+#include "tests/support/moving_body.h"
 #include "tools/report/extremity_text.h"
 
 namespace mocap {
@@ -16,28 +17,35 @@ class ExtremityAccuracyTest : public ::testing::Test {
  protected:
   static constexpr int kSets = 30;
 
-  ExtremityAccuracyTest() : body_(LoadBodyTable("full"), AverageSizes(1750)) {
-    result_.body = RecordOf(body_);
-    CaptureResult capture;
-    capture.state = CaptureState::kTracking;
-    capture.pose.theta = JointAngles::Zero(body_.joint_count());
-    capture.pose.X_WT.p = {0, 0, 1200};
-    const Posture posture = body_.PostureAt(capture.pose);
-    capture.points_W = body_.PointsAt(posture);
-    capture.further_W = body_.FurtherPointsAt(posture);
-    capture.contacts.setOnes();
+  ExtremityAccuracyTest()
+      : body_(LoadBodyTable("full"), AverageSizes(1750)), result_(StandingStill(body_)) {
+    const PoseRow& row = result_.poses.front();
     for (int i = 0; i < kSets; ++i) {
-      result_.poses.push_back(PoseRowOf(i, i * kExtremityPeriod_ns, capture, body_));
       truth_.frames.push_back(
-          {.timestamp_ns = i * kExtremityPeriod_ns, .points_W = ScoredPointsOf(capture.points_W)});
+          {.timestamp_ns = i * kExtremityPeriod_ns, .points_W = ScoredPointsOf(row.points_W)});
       TrueExtremities& truth = truth_.extremities.emplace_back();
-      truth.points_W = capture.further_W;
+      truth.points_W = row.further_W;
       truth.contacts.setOnes();
       truth.rotations.setZero();
       // Hands of arms that are held out, against those that hang.
       truth.rotations(0, 1) = EIGEN_PI / 2;
       truth.rotations(0, 2) = -EIGEN_PI / 2;
     }
+  }
+
+  static Result StandingStill(const BodyModel& body) {
+    CaptureResult capture;
+    capture.state = CaptureState::kTracking;
+    capture.pose.theta = JointAngles::Zero(body.joint_count());
+    capture.pose.X_WT.p = {0, 0, 1200};
+    const Posture posture = body.PostureAt(capture.pose);
+    capture.points_W = body.PointsAt(posture);
+    capture.further_W = body.FurtherPointsAt(posture);
+    capture.contacts.setOnes();
+    Result result{RecordOf(body), {}};
+    for (int i = 0; i < kSets; ++i)
+      result.poses.push_back(PoseRowOf(i, i * kExtremityPeriod_ns, capture, body));
+    return result;
   }
 
   ExtremityAccuracy Measure() const {
@@ -93,6 +101,27 @@ TEST_F(ExtremityAccuracyTest, AHeadThatLooksElsewhereIsOffInThatAngle) {
   EXPECT_NEAR(MeanIn(accuracy.angles_deg, "hand_turn_l"), 0, 1e-5);
 }
 
+TEST_F(ExtremityAccuracyTest, ABodyWithoutHandsAndATurningHeadHasNoAnglesOfThem) {
+  result_ = StandingStill(BodyModel(LoadBodyTable("mikic2003"), AverageSizes(1750)));
+  for (const FigureErrors& one : Measure().angles_deg)
+    EXPECT_FALSE(one.name.starts_with("hand_") || one.name.starts_with("head_")) << one.name;
+  // A body of earlier versions: it turns its hands, but its results do not have their points.
+  result_ = StandingStill(body_);
+  testing::MakeOfEarlierFull(result_);
+  EXPECT_TRUE(Measure().angles_deg.empty());
+}
+
+TEST_F(ExtremityAccuracyTest, AHandThatAFrameLacksIsLeftOutOfIt) {
+  for (int i = 0; i < kSets; ++i) {
+    if (i >= 10) truth_.extremities[i].rotations(2, 0) = 0.5;
+    if (i >= 10) testing::LoseDetails(result_.poses[i]);
+    if (i >= 10) truth_.extremities[i].rotations(2, 1) = 0.5;
+  }
+  const ExtremityAccuracy accuracy = Measure();
+  EXPECT_NEAR(MeanIn(accuracy.angles_deg, "hand_turn_l"), 0, 1e-5);
+  EXPECT_GT(MeanIn(accuracy.angles_deg, "head_yaw"), 10);
+}
+
 TEST_F(ExtremityAccuracyTest, AFlexedAnkleIsOffByItsFlexion) {
   const int ankle = body_.CarrierOf(Point::kHeelL) - 1;
   ASSERT_EQ(body_.table().joints[static_cast<std::size_t>(ankle)].name, "ankle_l_y");
@@ -122,7 +151,7 @@ TEST_F(ExtremityAccuracyTest, AContactMayBeAFrameOffAndNoMore) {
 TEST_F(ExtremityAccuracyTest, AStandingFootThatSlidesSkates) {
   for (int i = 0; i < kSets; ++i)
     for (const Point point : {Point::kHeelL, Point::kHeelR})
-      result_.poses[i].further_W(1, static_cast<int>(point) - kPointCount) += 2.0 * i;
+      FurtherOf(result_.poses[i].further_W, point).y() += 2.0 * i;
   const ExtremityAccuracy accuracy = Measure();
   EXPECT_NEAR(accuracy.skating[0].frame_p95_mm, 2, 1e-9);
   EXPECT_NEAR(accuracy.skating[0].stance_mean_mm, 2.0 * (kSets - 1), 1e-9);
