@@ -9,7 +9,7 @@ namespace {
 
 bool IsContact(double probability) { return probability >= kContactProbability; }
 
-/// Whether a true contact is, or becomes or was in time, what was found in a frame.
+/// Whether the true contact is as it was found, in this frame or within the tolerance of it.
 bool HoldsNearby(const TakeTruth& truth, int contact, std::size_t frame, bool found) {
   const std::int64_t time_ns = truth.frames[frame].timestamp_ns;
   const auto is_found = [&](std::size_t i) {
@@ -37,8 +37,8 @@ void Count(bool found, bool is_right, ContactScore& score) {
   if (!found && !is_right) ++score.misses;
 }
 
-/// The way of one point while it stands.
-class StanceWays {
+/// The paths along the floor of one point, from when it comes to stand to when it leaves.
+class StancePaths {
  public:
   void Stand(const Vector3& p_W) {
     const Vector2 p = p_W.head<2>();
@@ -78,21 +78,21 @@ class StanceWays {
 /// Follows a contact's point, in the result or in the truth, through the frames.
 template <typename PointOf>
 void Follow(const TakeTruth& truth, std::span<const FrameError> frames, int contact,
-            PointOf point_of, StanceWays& ways) {
+            PointOf point_of, StancePaths& paths) {
   int last_truth = -2;
   for (const FrameError& frame : frames) {
-    if (frame.truth != last_truth + 1) ways.Leave();
+    if (frame.truth != last_truth + 1) paths.Leave();
     last_truth = frame.truth;
     const Vector3 p_W = point_of(frame);
     const bool stands =
         IsContact(truth.extremities[static_cast<std::size_t>(frame.truth)].contacts[contact]);
     if (stands && p_W.allFinite()) {
-      ways.Stand(p_W);
+      paths.Stand(p_W);
     } else {
-      ways.Leave();
+      paths.Leave();
     }
   }
-  ways.Leave();
+  paths.Leave();
 }
 
 }  // namespace
@@ -109,7 +109,7 @@ double ContactScore::F1() const {
 
 void MeasureContacts(const Result& result, const TakeTruth& truth,
                      std::span<const FrameError> frames, ExtremityAccuracy& accuracy) {
-  std::array<StanceWays, 2> ways, true_ways;
+  std::array<StancePaths, 2> paths, true_paths;
   for (int contact = 0; contact < kContactCount; ++contact) {
     const auto part = static_cast<std::size_t>(contact) / 2;
     const Point point = kContactPoints[contact];
@@ -126,18 +126,18 @@ void MeasureContacts(const Result& result, const TakeTruth& truth,
         [&](const FrameError& frame) -> Vector3 {
           return FurtherOf(result.poses[static_cast<std::size_t>(frame.pose)].further_W, point);
         },
-        ways[part]);
+        paths[part]);
     Follow(
         truth, frames, contact,
         [&](const FrameError& frame) -> Vector3 {
           return FurtherOf(truth.extremities[static_cast<std::size_t>(frame.truth)].points_W,
                            point);
         },
-        true_ways[part]);
+        true_paths[part]);
   }
   for (const std::size_t part : {0, 1}) {
-    accuracy.skating[part] = ways[part].Summary();
-    accuracy.true_skating[part] = true_ways[part].Summary();
+    accuracy.skating[part] = paths[part].Summary();
+    accuracy.true_skating[part] = true_paths[part].Summary();
   }
 }
 

@@ -117,7 +117,7 @@ class PeopleOfLog {
       ++wrong_;
       return;
     }
-    TellDetails(details_.Of(set.utime, one.id), *row);
+    ApplyDetails(details_.Of(set.utime, one.id), *row);
     Person& person = people_[before_ + one.id];
     if (!one.name.empty()) person.name = one.name;
     const bool is_later =

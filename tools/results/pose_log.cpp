@@ -41,7 +41,7 @@ bool AddPose(std::span<const std::uint8_t> bytes, Daemon& daemon) {
   const auto pose = DecodeMessage<pose_t>(bytes);
   std::optional<PoseRow> row = pose ? PoseRowOf(*pose) : std::nullopt;
   if (!row) return false;
-  TellDetails(daemon.details.OfFirst(pose->utime), *row);
+  ApplyDetails(daemon.details.OfFirst(pose->utime), *row);
   const bool is_again = !daemon.poses.empty() && daemon.poses.back().frame == row->frame &&
                         daemon.poses.back().timestamp_ns == row->timestamp_ns;
   if (is_again) {

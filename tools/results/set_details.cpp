@@ -15,10 +15,10 @@ bool IsShare(double number) { return number >= 0 && number <= 1; }
 
 /// Anyone may send.
 bool IsSound(const person_details_t& details) {
-  const auto is_told = [](double number) { return !std::isinf(number); };
-  const bool are_points = std::ranges::all_of(details.point_std_mm, is_told) &&
+  const auto is_valid = [](double number) { return !std::isinf(number); };
+  const bool are_points = std::ranges::all_of(details.point_std_mm, is_valid) &&
                           std::ranges::all_of(details.point_mm, [&](const auto& point_mm) {
-                            return std::ranges::all_of(point_mm, is_told);
+                            return std::ranges::all_of(point_mm, is_valid);
                           });
   const bool is_probability = std::isnan(details.probability) || IsShare(details.probability);
   return are_points && is_probability && std::ranges::all_of(details.contact, IsShare) &&
@@ -54,7 +54,7 @@ const person_details_t* SetDetails::OfFirst(std::int64_t utime) const {
   return found == of_set_.end() ? nullptr : &*found;
 }
 
-void TellDetails(const person_details_t* details, PoseRow& row) {
+void ApplyDetails(const person_details_t* details, PoseRow& row) {
   if (!details) return;
   row.probability = details->probability;
   for (int i = 0; i < kFurtherPointCount; ++i) {

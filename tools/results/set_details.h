@@ -27,6 +27,6 @@ class SetDetails {
 
 /// Adds what a message tells beyond pose_t and person_t: the probability of the pose, the points
 /// that follow the 23, and contacts with the floor. @param details  null: no message.
-void TellDetails(const person_details_t* details, PoseRow& row);
+void ApplyDetails(const person_details_t* details, PoseRow& row);
 
 }  // namespace mocap

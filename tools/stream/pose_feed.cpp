@@ -134,7 +134,7 @@ void PoseFeed::HandOn(const pose_t& pose, int person, const std::string& name) {
       person == 0 ? details_.OfFirst(pose.utime) : details_.Of(pose.utime, person);
   StreamedPose streamed{
       .message = pose, .is_tracked = true, .body = &body->second, .person = person, .name = name};
-  TellDetails(details, streamed.told);
+  ApplyDetails(details, streamed.details);
   take_(streamed);
 }
 

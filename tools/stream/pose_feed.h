@@ -32,7 +32,7 @@ struct StreamedPose {
   const pose_t& message;
   bool is_tracked = false;       ///< If false, only time, frame and state of the message are valid.
   const body_t* body = nullptr;  ///< Names the message's joints; null: not tracked.
-  PoseRow told = {};             ///< What MOCAP_DETAILS adds.
+  PoseRow details = {};          ///< What MOCAP_DETAILS adds.
   int person = 0;                ///< 0: from MOCAP_POSE, which has no number.
   std::string name = {};
 };

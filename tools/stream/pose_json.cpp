@@ -43,19 +43,19 @@ void AddPose(const pose_t& pose, const body_t& body, Json& json) {
   json["residual_mm"] = Mm(pose.residual_mm);
 }
 
-void AddTold(const PoseRow& told, Json& json) {
+void AddDetails(const PoseRow& details, Json& json) {
   for (int i = 0; i < kFurtherPointCount; ++i) {
-    const Vector3 p_W = told.further_W.col(i);
+    const Vector3 p_W = details.further_W.col(i);
     if (!p_W.allFinite()) continue;
     const std::string name(kFurtherPointNames[i]);
     json["points_mm"][name] = {Mm(p_W.x()), Mm(p_W.y()), Mm(p_W.z())};
-    json["points_std_mm"][name] = Mm(told.further_std_mm[i]);
+    json["points_std_mm"][name] = Mm(details.further_std_mm[i]);
   }
   for (int i = 0; i < kContactCount; ++i) {
-    if (std::isnan(told.contacts[i])) continue;
-    json["contacts"][std::string(kContactNames[i])] = RoundedTo(told.contacts[i], 1e3);
+    if (std::isnan(details.contacts[i])) continue;
+    json["contacts"][std::string(kContactNames[i])] = RoundedTo(details.contacts[i], 1e3);
   }
-  if (!std::isnan(told.probability)) json["probability"] = RoundedTo(told.probability, 1e4);
+  if (!std::isnan(details.probability)) json["probability"] = RoundedTo(details.probability, 1e4);
 }
 
 }  // namespace
@@ -71,7 +71,7 @@ std::string PoseJson(const StreamedPose& pose) {
   }
   if (pose.is_tracked) {
     AddPose(pose.message, *pose.body, json);
-    AddTold(pose.told, json);
+    AddDetails(pose.details, json);
   }
   return JsonText(json);
 }

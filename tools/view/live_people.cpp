@@ -13,7 +13,7 @@ namespace {
 constexpr double kLongestGapUs = 3e6;
 
 void AddDoubt(const person_details_t* details, DrawnPose& drawn) {
-  TellDetails(details, drawn.row);
+  ApplyDetails(details, drawn.row);
   if (!details || details->rival_probability == 0 || details->num_rival_points < kPointCount)
     return;
   RivalPose& rival = drawn.rival.emplace();

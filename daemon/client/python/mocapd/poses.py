@@ -20,7 +20,7 @@ POINT_NAMES: tuple[str, ...] = (
     "torso", "head", "upper_arm_l", "upper_arm_r", "thigh_l", "thigh_r", "lower_arm_l", "lower_arm_r", "calf_l", "calf_r",
     "neck", "shoulder_l", "shoulder_r", "hip_l", "hip_r", "elbow_l", "elbow_r", "fingertips_l", "fingertips_r", "knee_l",
     "knee_r", "foot_l", "foot_r")
-#: Points that follow the 23, where the body has them: of hands, feet and collarbones that turn by themselves.
+#: Points beyond the 23: of hands, feet and collarbones, where joints of the body turn these.
 FURTHER_POINT_NAMES: tuple[str, ...] = (
     "clavicle_l", "clavicle_r", "wrist_l", "wrist_r", "ankle_l", "ankle_r", "heel_l", "heel_r", "ball_l", "ball_r", "toe_l", "toe_r",
     "knuckles_l", "knuckles_r")
@@ -115,7 +115,7 @@ class Body:
 
 
 @dataclasses.dataclass(frozen=True, eq=False)
-class Told:
+class PoseDetails:
     """What MOCAP_DETAILS adds to a pose. NaN: not known."""
     probability: float = float("nan")  #: of the pose, 0 to 1
     further_points_mm: np.ndarray = dataclasses.field(default_factory=lambda: np.full((len(FURTHER_POINT_NAMES), 3), np.nan))
@@ -123,20 +123,20 @@ class Told:
     contacts: np.ndarray = dataclasses.field(default_factory=lambda: np.full(len(CONTACT_NAMES), np.nan))  #: 0 to 1
 
     @classmethod
-    def of(cls, details: person_details_t) -> Told:
-        told = cls(probability=float(details.probability) if 0 <= details.probability <= 1 else float("nan"))
+    def of(cls, details: person_details_t) -> PoseDetails:
+        added = cls(probability=float(details.probability) if 0 <= details.probability <= 1 else float("nan"))
         for i, name in enumerate(FURTHER_POINT_NAMES):
             if name not in details.point_name:
                 continue
             place = details.point_name.index(name)
             if np.isfinite(details.point_mm[place]).all():
-                told.further_points_mm[i] = details.point_mm[place]
-                told.further_points_std_mm[i] = details.point_std_mm[place]
+                added.further_points_mm[i] = details.point_mm[place]
+                added.further_points_std_mm[i] = details.point_std_mm[place]
         for i, name in enumerate(CONTACT_NAMES):
             if name in details.contact_name:
                 contact = details.contact[details.contact_name.index(name)]
-                told.contacts[i] = contact if 0 <= contact <= 1 else np.nan
-        return told
+                added.contacts[i] = contact if 0 <= contact <= 1 else np.nan
+        return added
 
 
 @dataclasses.dataclass(frozen=True, eq=False)
@@ -185,7 +185,7 @@ class Pose:
 
     @classmethod
     def of(cls, message: pose_t | person_t, utime: int, frame: int, body: Body | None, person: int | None = None,
-           name: str = "", told: Told | None = None) -> Pose | None:
+           name: str = "", details: PoseDetails | None = None) -> Pose | None:
         """Reads a message. None where somebody is tracked and the body is not known yet, or a number is none."""
         state = state_name(message.state)
         if not is_time(utime):
@@ -194,13 +194,13 @@ class Pose:
             return cls.untracked(utime, frame, state, person, name)
         if body is None or len(body.joint_names) != message.num_joints or not has_numbers(message):
             return None
-        told = told or Told()
+        details = details or PoseDetails()
         return cls(utime=utime, frame=frame, state=state, person=person, name=name, body=body,
                    torso_mm=np.array(message.torso_mm), theta_rad=np.array(message.theta_rad),
                    joints_rad=np.array(message.joint_rad),
                    torso_rotation=rotation_matrix(message.torso_axis, message.torso_angle_rad),
                    points_mm=np.array(message.point_mm), points_std_mm=np.array(message.point_std_mm),
-                   residual_mm=message.residual_mm, **vars(told))
+                   residual_mm=message.residual_mm, **vars(details))
 
     @classmethod
     def untracked(cls, utime: int, frame: int, state: str, person: int | None, name: str) -> Pose:
@@ -209,7 +209,7 @@ class Pose:
         return cls(utime=utime, frame=frame, state=state, person=person, name=name, body=None, torso_mm=nothing(3),
                    torso_rotation=nothing(3, 3), theta_rad=nothing(len(THETA_NAMES)), joints_rad=nothing(0),
                    points_mm=nothing(len(POINT_NAMES), 3), points_std_mm=nothing(len(POINT_NAMES)), residual_mm=float("nan"),
-                   **vars(Told()))
+                   **vars(PoseDetails()))
 
 
 class SetDetails:
@@ -225,13 +225,13 @@ class SetDetails:
         others = [before for before in self._of_set if before.utime == message.utime and before.person != message.person]
         self._of_set = [*others, message]
 
-    def of(self, utime: int, person: int | None) -> Told:
-        """Of a person's pose; None: of the one in pose_t."""
+    def of(self, utime: int, person: int | None) -> PoseDetails:
+        """The details of a person's pose; None: of the pose in pose_t."""
         for details in self._of_set:
             is_meant = details.place == 0 if person is None else details.person == person
             if details.utime == utime and is_meant:
-                return Told.of(details)
-        return Told()
+                return PoseDetails.of(details)
+        return PoseDetails()
 
 
 class PoseDecoder:
@@ -257,7 +257,7 @@ class PoseDecoder:
     def pose(self, data: bytes) -> Pose | None:
         message = decoded(pose_t, data)
         pose = None if message is None else Pose.of(
-            message, message.utime, message.frame, self.body, told=self.details.of(message.utime, None))
+            message, message.utime, message.frame, self.body, details=self.details.of(message.utime, None))
         self.left_out = {None: why_not(message, self.body)} if pose is None else {}
         return pose
 

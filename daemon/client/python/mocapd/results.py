@@ -14,7 +14,7 @@ from .lcm_log import listed_prefixes, read_events
 from .mocap.people_t import people_t
 from .mocap.pose_t import pose_t
 from .poses import (CONTACT_NAMES, FURTHER_POINT_NAMES, PAPER_JOINT_NAMES, POINT_NAMES, THETA_NAMES, TRACKING, Body, PoseDecoder,
-                    SetDetails, Told, decoded, has_numbers, is_time, place_of, rotation_matrix, state_name)
+                    PoseDetails, SetDetails, decoded, has_numbers, is_time, place_of, rotation_matrix, state_name)
 
 if TYPE_CHECKING:
     import pandas
@@ -336,7 +336,7 @@ class _Rows:
                            numbers_or_none(places.further_deviations), numbers_or_none(places.contacts),
                            numbers_or_none(places.joints)))
 
-    def add_message(self, message: Any, utime: int, frame: int, told: Told) -> None:
+    def add_message(self, message: Any, utime: int, frame: int, details: PoseDetails) -> None:
         state = state_name(message.state)
         head = (frame, utime * 1000, state)
         came_before = bool(self.heads) and self.heads[-1] == head
@@ -346,8 +346,8 @@ class _Rows:
         self.poses.append(None if state != TRACKING else (
             np.array(message.torso_mm), np.array(message.torso_axis), np.array(message.torso_angle_rad),
             np.array(message.theta_rad), np.array(message.point_mm), np.array(message.residual_mm),
-            np.array(message.point_std_mm), np.array(told.probability), told.further_points_mm, told.further_points_std_mm,
-            told.contacts, np.array(message.joint_rad)))
+            np.array(message.point_std_mm), np.array(details.probability), details.further_points_mm, details.further_points_std_mm,
+            details.contacts, np.array(message.joint_rad)))
 
     def result(self, model: str, stature_mm: float, sizes_mm: dict[str, float], joint_names: tuple[str, ...]) -> Result:
         shapes = ((3,), (3,), (), (len(THETA_NAMES),), (len(POINT_NAMES), 3), (), (len(POINT_NAMES),), (),
