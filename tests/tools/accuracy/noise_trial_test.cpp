@@ -21,7 +21,8 @@ NoiseTake Drawn(unsigned seed) {
   std::mt19937 random(seed);
   std::student_t_distribution<double> t(kDrawn.freedom);
   std::bernoulli_distribution is_inside(kDrawn.inside_mm / (kDrawn.inside_mm + kDrawn.outside_mm));
-  NoiseTake take{.groups = {}, .odds = {}, .contacts = {}, .step_s = 0.1, .voxel_mm = 25, .sets = 40};
+  NoiseTake take{
+      .groups = {}, .odds = {}, .contacts = {}, .step_s = 0.1, .voxel_mm = 25, .sets = 40};
   for (int set = 0; set < take.sets; ++set) {
     for (int capsule = 0; capsule < 20; ++capsule) {
       ResidualGroup& group = take.groups.emplace_back();
@@ -54,7 +55,8 @@ TEST(FitNoise, FindsTheNoiseThatWasDrawn) {
 
 // A twentieth of the bones is far from the flesh.
 NoiseTake BonesDrawn() {
-  NoiseTake take{.groups = {}, .odds = {}, .contacts = {}, .step_s = 0.1, .voxel_mm = 25, .sets = 1};
+  NoiseTake take{
+      .groups = {}, .odds = {}, .contacts = {}, .step_s = 0.1, .voxel_mm = 25, .sets = 1};
   for (int capsule = 0; capsule < 20; ++capsule) {
     ResidualGroup& group = take.groups.emplace_back();
     group.kind = NoiseKind::kFlesh;
