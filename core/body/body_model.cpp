@@ -90,22 +90,23 @@ FurtherPoints BodyModel::FurtherPointsAt(const Posture& posture) const {
 }
 
 bool BodyModel::MovesApart(Point further) const {
-  const auto carrier = [this](Segment segment) {
-    return table_.carrier[static_cast<int>(segment)];
+  const auto differ = [this](Segment one, Segment other) {
+    return table_.carrier[static_cast<int>(one)] != table_.carrier[static_cast<int>(other)];
   };
   switch (kSegmentOfPoint[static_cast<int>(further)]) {
     case Segment::kHandL:
-      return carrier(Segment::kHandL) != carrier(Segment::kLowerArmL);
+      return differ(Segment::kHandL, Segment::kLowerArmL);
     case Segment::kHandR:
-      return carrier(Segment::kHandR) != carrier(Segment::kLowerArmR);
+      return differ(Segment::kHandR, Segment::kLowerArmR);
     case Segment::kFootL:
     case Segment::kToesL:
-      return carrier(Segment::kFootL) != carrier(Segment::kCalfL);
+      return differ(Segment::kFootL, Segment::kCalfL);
     case Segment::kFootR:
     case Segment::kToesR:
-      return carrier(Segment::kFootR) != carrier(Segment::kCalfR);
-    default:
-      return carrier(Segment::kShoulderL) != carrier(Segment::kTorso);
+      return differ(Segment::kFootR, Segment::kCalfR);
+    default:  // Collarbones begin at the torso.
+      return differ(further == Point::kClavicleL ? Segment::kShoulderL : Segment::kShoulderR,
+                    Segment::kTorso);
   }
 }
 

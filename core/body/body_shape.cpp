@@ -36,7 +36,7 @@ constexpr Leg kLegs[] = {
      Segment::kToesR, Point::kHipR, Point::kKneeR, Point::kAnkleR, Point::kBallR, Point::kFootR}};
 
 // The elbow belongs to the upper arm, the wrist to the forearm. Of a foot, borders hold the sides
-// of the toes: where they held heels, feet on steps were 60 mm off instead of 25.
+// of the toes only: when they held heels, too, feet on steps were off by 60 mm instead of 25.
 constexpr std::array<bool, 3> kWithoutStart = {false, true, true}, kAtEnds = {true, false, true},
                               kNowhere = {};
 
@@ -154,6 +154,7 @@ class ShapeBuilder {
     const auto aside = [&](double x, double side, double radius) -> Vector3 {
       return sole + Vector3(x, side * 0.25 * breadth, radius);
     };
+    // Toes end at the tip of the foot, Point::kToeL and Point::kToeR.
     const double ball_x = At(leg.ball).x() - sole.x(), toe_x = 0.75 * length - toe_radius;
     for (const double side : {1.0, -1.0}) {
       Add(leg.lower, leg.foot, sole + Vector3(-0.1 * length, 0, heel_radius),

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <random>
 #include <string>
 #include <vector>
@@ -158,6 +159,29 @@ INSTANTIATE_TEST_SUITE_P(Tables, EveryBody, ::testing::Values("mikic2003", "full
                          [](const auto& test) { return test.param; });
 
 // Eq. (13) written out for the right foot: R0 (R12 (R14 (R16 p + t16) + t14) + t12) + t0.
+TEST(BodyModel, HasThePointsOfSegmentsThatTurnByThemselves) {
+  BodyTable table = LoadBodyTable("full");
+  table.carrier[static_cast<int>(Segment::kShoulderR)] = -1;
+  const BodyModel stiff(table, AverageSizes(1750));
+  PoseState pose;
+  pose.theta = JointAngles::Zero(stiff.joint_count());
+  const FurtherPoints points_W = stiff.FurtherPointsAt(stiff.PostureAt(pose));
+  for (int i = 0; i < kFurtherPointCount; ++i)
+    EXPECT_EQ(points_W.col(i).allFinite(), kFurtherPointNames[i] != "clavicle_r")
+        << kFurtherPointNames[i];
+}
+
+TEST(BodyModel, FleshOfToesEndsAtTheTipOfTheFoot) {
+  const BodyModel body(LoadBodyTable("full"), AverageSizes(1750));
+  for (const Point toe : {Point::kToeL, Point::kToeR}) {
+    double front_mm = -1e9;
+    for (const Capsule& capsule : body.shape())
+      if (capsule.carrier == body.CarrierOf(toe))
+        front_mm = std::max(front_mm, capsule.a_T.x() + capsule.radius_a_mm);
+    EXPECT_NEAR(front_mm, body.reference_points_T().col(static_cast<int>(toe)).x(), 1e-9);
+  }
+}
+
 TEST(BodyModel, PutsTheRightFootWhereThePaperPutsIt) {
   const BodyModel body(LoadBodyTable("mikic2003"), AverageSizes(1800));
   std::mt19937 random(3);
