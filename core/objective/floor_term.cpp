@@ -10,7 +10,7 @@ double DepthBelowFloor(const PosedCapsule& capsule, double share) {
 
 }  // namespace
 
-// A foot has many ends, which are below the floor together: they say no more than one.
+// The ends of a foot are below the floor together; they are no more evidence than one.
 std::array<LowestEnd, kBodyPartCount> EndsBelowFloor(const PosedBody& posed, CapsuleSet capsules) {
   std::array<LowestEnd, kBodyPartCount> lowest;
   for (int i = 0; i < std::ssize(posed.capsules()); ++i) {

@@ -14,6 +14,7 @@ JointPositions SimulatedTruth::At(std::int64_t capture_ns, int person) const {
 }
 
 simulation::FloorContacts SimulatedTruth::ContactsAt(std::int64_t capture_ns, int person) const {
+  // So short that a foot hardly changes its speed.
   constexpr std::int64_t kApart_ns = 1'000'000;
   const simulation::Person& who = people_[person];
   return simulation::ContactsOf(who.body(), who.BonesAt(capture_ns),

@@ -8,8 +8,8 @@
 namespace mocap {
 namespace {
 
-// Newton's method converges quadratically; odds of parts that motion tells apart without any doubt
-// are kept finite by a weak prior.
+// Newton's method converges quadratically: thirty steps are plenty. A weak prior keeps the odds
+// finite where motion separates the samples perfectly.
 constexpr int kNewtonSteps = 30;
 constexpr double kPriorInformation = 1e-3;
 

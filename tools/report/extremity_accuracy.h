@@ -56,10 +56,10 @@ struct ExtremityAccuracy {
   bool IsEmpty() const { return points_mm.empty() && angles_deg.empty(); }
 };
 
-/// A contact counts as right if it holds true at most this long before or after; true contacts
-/// begin and end halfway between two frames.
+/// A contact counts as right if it holds true at most this long before or after [s]: a frame at
+/// 30 Hz. True contacts begin and end halfway between two frames.
 inline constexpr double kContactTolerance_s = 0.033;
-/// Likelier contacts count as contacts.
+/// A contact that is at least this likely counts as one: it holds rather than not.
 inline constexpr double kContactProbability = 0.5;
 
 /// Measures a result in frames that have truth. Angles of head and hands follow from its segments:

@@ -103,7 +103,7 @@ FrameErrors ErrorsOf(const Accuracy& accuracy, const std::vector<int>& rows) {
   return errors;
 }
 
-/// The steps, at times of the page.
+/// Foot strikes and foot offs, at the page's times.
 Json EventsJson(const Result& result) {
   Json events = Json::array();
   for (const GaitEvent& event : GaitEventsOf(result)) {

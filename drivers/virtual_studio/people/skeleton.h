@@ -130,7 +130,7 @@ using TruePoints = std::array<Vector3, kTruthPointCount>;
 /// Computes the truth points from bone poses.
 TruePoints PointsOf(const Anthropometry& body, const BonePoses& bones);
 
-/// The joint of the toes and their tip above the sole, of the stature.
+/// Height of the toes' joint and tip above the sole, as a share of the stature.
 inline constexpr double kToeHeight = 0.012;
 
 /// Middle of the skull in the head's frame.

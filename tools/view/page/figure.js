@@ -11,8 +11,8 @@ const TRAIL_STEP_MS = 25;
 const TRAIL_POINTS = ['fingertips_l', 'fingertips_r', 'foot_l', 'foot_r'];
 const PARTS = 10;
 const RIVAL_MM = 9;
-const CONTACT_MM = 26;
-const LEAST_CONTACT = 0.5;
+const CONTACT_MM = 26;  // radius of a dot
+const LEAST_CONTACT = 0.5;  // a contact that holds rather than not
 const OLD_OPACITY = 0.3;
 const DOUBT_OPACITY = 0.55;
 // A doubtful body's colour is mixed with the ground's, so that it is paler, not only thinner.
