@@ -260,7 +260,7 @@ TEST(StayedStudio, SomebodyWhoStoodBeforeAWallAllTheTimeIsUnknownAndTrackingIsNo
   const TakeLayout minute{folder.path() / "minute"}, walk{folder.path() / "walk"};
   const std::string studio = "--width 320 --height 240 --cameras 5 --seed 4";
   Simulate(minute.folder, "--people 2 --seconds 40 --fps 1", studio);
-  Simulate(walk.folder, "--seconds 3 --fps 20", studio);
+  Simulate(walk.folder, "--seconds 1.5 --fps 20", studio);
   const auto [error_mm, tracked] = TrackedWithin(walk.folder);
   fs::remove_all(minute.Background());
   Repaint(minute.Video("cam1"), StripedAt);

@@ -126,6 +126,8 @@ TEST_F(Carried, WhatIsNotAllowedIsNotSeen) {
   EXPECT_EQ(FitnessOf(evidence, pose, others).nats, FitnessOf(evidence, pose, {}).nats);
 }
 
+// The head of a single person is drawn aside by where the voxels lie, too: of these 15, ten are
+// better by up to 3 mm where things may be, and five are worse by less.
 TEST_F(Carried, AHatDoesNotPullTheHead) {
   double without_mm = 0, with_mm = 0;
   for (int person = 0; person < 15; ++person) {
@@ -140,8 +142,10 @@ TEST_F(Carried, AHatDoesNotPullTheHead) {
       DrawNear(objective_, body_, things, {8, 8}, filter);
       return (At(filter.pose(), Point::kHead) - At(pose, Point::kHead)).norm();
     };
-    without_mm += head_error_mm({}) / 15;
-    with_mm += head_error_mm(kAnyThings) / 15;
+    const double one_without_mm = head_error_mm({}), one_with_mm = head_error_mm(kAnyThings);
+    EXPECT_LT(one_with_mm, one_without_mm + 3) << person;
+    without_mm += one_without_mm / 15;
+    with_mm += one_with_mm / 15;
   }
   EXPECT_LT(with_mm, without_mm - 1);
 }

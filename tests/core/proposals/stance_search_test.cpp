@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "tests/support/fitted_body.h"
 
 namespace mocap {
@@ -33,12 +35,19 @@ class Search : public FittedBody {
 };
 
 TEST_F(Search, FindsAPersonOfKnownSizesTheBestFirst) {
-  const PoseState truth = Standing({.arm_l = kArmOut});
-  See(truth);
-  const std::vector<StanceCandidate>& found = Find();
-  ASSERT_GT(found.size(), 1u);
-  EXPECT_LT(Error(found.front().pose, truth), 30);
-  for (std::size_t i = 1; i < found.size(); ++i) EXPECT_LE(found[i - 1].nats, found[i].nats);
+  std::size_t most = 0;
+  for (const ArmStance& arm : {ArmStance{.raise = 0}, kArmOut}) {
+    const PoseState truth = Standing({.arm_l = arm});
+    See(truth);
+    search_.StartOver();
+    const std::vector<StanceCandidate>& found = Find();
+    ASSERT_FALSE(found.empty());
+    EXPECT_LT(Error(found.front().pose, truth), 30);
+    for (std::size_t i = 1; i < found.size(); ++i) EXPECT_LE(found[i - 1].nats, found[i].nats);
+    most = std::max(most, found.size());
+  }
+  // An arm straight out leaves no doubt: a single pose is found.
+  EXPECT_GT(most, 1u);
 }
 
 TEST_F(Search, FindsPosesThatDiffer) {
@@ -66,15 +75,16 @@ TEST_F(Search, KeepsTheBestOfTheFrameBeforeWhereThereIsLittleTime) {
   EXPECT_LT(Error(Find({0.02}).front().pose, truth), 15);
 }
 
+// At 50 mm, and a few millimetres around it, the voxels of head and brim fit a bare head as well.
 TEST_F(Search, FindsWhatSomebodyWearsIfThatMayBe) {
   int hats = 0;
-  for (const double x_mm : {-100, -50, 0, 50, 100}) {
+  for (const double x_mm : {-100, -75, -50, -25, 0, 25, 50, 75, 100}) {
     See(WithHat(x_mm));
     search_.StartOver();
     hats += Find().front().things.test(static_cast<int>(Thing::kHat));
     EXPECT_TRUE(Find({1, Things{}}).front().things.none());
   }
-  EXPECT_GE(hats, 4);
+  EXPECT_GE(hats, 8);
 }
 
 // What no part explains may be a stray blob of a silhouette.
