@@ -26,9 +26,7 @@ double MedianPeriod_s(const std::vector<PoseRow>& rows) {
   return *middle;
 }
 
-Vector3 FurtherOf(const PoseRow& row, Point point) {
-  return row.further_W.col(static_cast<int>(point) - kPointCount);
-}
+Vector3 FurtherOf(const PoseRow& row, Point point) { return FurtherOf(row.further_W, point); }
 
 bool HasContacts(const PoseRow& row) { return IsTracked(row) && row.contacts.allFinite(); }
 

@@ -42,8 +42,8 @@ double AngleBetween(const Vector3& a, const Vector3& b) {
 
 Point OnSide(Point left, int side) { return static_cast<Point>(static_cast<int>(left) + side); }
 
-/// Angle between shank and sole: from the heel to the toe, or from the ankle where the truth has no
-/// heel.
+/// Angle between shank and sole, from the heel to the toe. Where the truth has no heel, from the
+/// ankle: then it also depends on where in the foot its toe lies.
 double AnkleFlexion(const Vector3& knee_W, const FurtherPoints& further_W, int side,
                     bool has_heel) {
   const auto at = [&](Point point) -> Vector3 { return FurtherOf(further_W, OnSide(point, side)); };
@@ -57,18 +57,29 @@ Vector3 TrueKnee(const ScoredPoints& points_W, int side) {
   return points_W.col(knee + side);
 }
 
-void AddAnkles(const PoseRow& row, const ScoredFrame& frame, const TrueExtremities& truth,
-               ErrorsByName& angles_deg) {
-  for (const int side : {0, 1}) {
-    const bool has_heel = FurtherOf(truth.points_W, OnSide(Point::kHeelL, side)).allFinite();
+/// Errors of one ankle.
+class AnkleErrors {
+ public:
+  void Add(const PoseRow& row, const ScoredFrame& frame, const TrueExtremities& truth, int side) {
+    has_heel_ = FurtherOf(truth.points_W, OnSide(Point::kHeelL, side)).allFinite();
     const Vector3 knee_W = At(row, OnSide(Point::kKneeL, side));
     const double error_rad =
-        AnkleFlexion(knee_W, row.further_W, side, has_heel) -
-        AnkleFlexion(TrueKnee(frame.points_W, side), truth.points_W, side, has_heel);
-    angles_deg.Add(side == 0 ? "ankle_flexion_l" : "ankle_flexion_r",
-                   std::abs(error_rad) * kDegreesPerRad);
+        AnkleFlexion(knee_W, row.further_W, side, has_heel_) -
+        AnkleFlexion(TrueKnee(frame.points_W, side), truth.points_W, side, has_heel_);
+    if (!std::isnan(error_rad)) errors_deg_.push_back(error_rad * kDegreesPerRad);
   }
-}
+
+  void AddTo(const std::string& name, ErrorsByName& angles_deg) const {
+    const double sum = std::accumulate(errors_deg_.begin(), errors_deg_.end(), 0.0);
+    const double offset =
+        has_heel_ || errors_deg_.empty() ? 0 : sum / static_cast<double>(errors_deg_.size());
+    for (const double error : errors_deg_) angles_deg.Add(name, std::abs(error - offset));
+  }
+
+ private:
+  std::vector<double> errors_deg_;
+  bool has_heel_ = false;
+};
 
 void AddHead(const Matrix3& R_error, ErrorsByName& angles_deg) {
   const Vector3 turn_deg = LogRotation(R_error) * kDegreesPerRad;
@@ -163,15 +174,19 @@ ExtremityAccuracy MeasureExtremities(const Result& result, const TakeTruth& trut
   ExtremityAccuracy accuracy;
   if (truth.extremities.empty() || frames.empty()) return accuracy;
   ErrorsByName points_mm, angles_deg;
+  std::array<AnkleErrors, 2> ankles;
   const SegmentPoser segments(result.body);
   const bool turns_head = TurnsHead(result.body);
   for (const FrameError& frame : frames) {
     const PoseRow& row = result.poses[static_cast<std::size_t>(frame.pose)];
     const auto at = static_cast<std::size_t>(frame.truth);
     AddPoints(row, truth.extremities[at], points_mm);
-    AddAnkles(row, truth.frames[at], truth.extremities[at], angles_deg);
+    for (const int side : {0, 1})
+      ankles[side].Add(row, truth.frames[at], truth.extremities[at], side);
     AddSegments(segments, turns_head, row, truth.extremities[at], angles_deg);
   }
+  ankles[0].AddTo("ankle_flexion_l", angles_deg);
+  ankles[1].AddTo("ankle_flexion_r", angles_deg);
   accuracy.points_mm = points_mm.Summary();
   accuracy.angles_deg = angles_deg.Summary();
   MeasureContacts(result, truth, frames, accuracy);

@@ -44,7 +44,8 @@ inline constexpr std::array<std::string_view, 2> kFootPartNames = {"heel", "toe"
 /// body without hands, and of a head that cannot turn about its length.
 struct ExtremityAccuracy {
   std::vector<FigureErrors> points_mm;
-  /// ankle_flexion_l and _r: angle between shank and sole. head_yaw, head_pitch, head_roll:
+  /// ankle_flexion_l and _r: angle between shank and sole; of a truth without heels, less the mean
+  /// error, because its toes may lie anywhere in the foot. head_yaw, head_pitch, head_roll:
   /// components of the error's rotation vector about the true head's axes z, y and x.
   /// hand_direction_l and _r: between the directions of the fingers; hand_turn_l and _r: about it.
   std::vector<FigureErrors> angles_deg;
@@ -59,8 +60,6 @@ struct ExtremityAccuracy {
 /// A contact counts as right if it holds true at most this long before or after [s]: a frame at
 /// 30 Hz. True contacts begin and end halfway between two frames.
 inline constexpr double kContactTolerance_s = 0.033;
-/// A contact that is at least this likely counts as one: it holds rather than not.
-inline constexpr double kContactProbability = 0.5;
 
 /// Measures a result in frames that have truth. Angles of head and hands follow from its segments:
 /// see SegmentPoser.

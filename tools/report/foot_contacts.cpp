@@ -7,7 +7,7 @@
 namespace mocap {
 namespace {
 
-bool IsContact(double probability) { return probability >= kContactProbability; }
+bool IsContact(double probability) { return probability > kContactLimit; }
 
 /// Whether the true contact is as it was found, in this frame or within the tolerance of it.
 bool HoldsNearby(const TakeTruth& truth, int contact, std::size_t frame, bool found) {

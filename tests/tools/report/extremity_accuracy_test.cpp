@@ -48,6 +48,16 @@ class ExtremityAccuracyTest : public ::testing::Test {
     return result;
   }
 
+  FurtherPoints LeftAnkleFlexed(double rad) const {
+    const int ankle = body_.CarrierOf(Point::kHeelL) - 1;
+    EXPECT_EQ(body_.table().joints[static_cast<std::size_t>(ankle)].name, "ankle_l_y");
+    PoseState pose;
+    pose.theta = JointAngles::Zero(body_.joint_count());
+    pose.theta[ankle] = rad;
+    pose.X_WT.p = {0, 0, 1200};
+    return body_.FurtherPointsAt(body_.PostureAt(pose));
+  }
+
   ExtremityAccuracy Measure() const {
     std::vector<ScoredFrame> output;
     for (const PoseRow& row : result_.poses)
@@ -123,17 +133,19 @@ TEST_F(ExtremityAccuracyTest, AHandThatAFrameLacksIsLeftOutOfIt) {
 }
 
 TEST_F(ExtremityAccuracyTest, AFlexedAnkleIsOffByItsFlexion) {
-  const int ankle = body_.CarrierOf(Point::kHeelL) - 1;
-  ASSERT_EQ(body_.table().joints[static_cast<std::size_t>(ankle)].name, "ankle_l_y");
-  CaptureResult capture;
-  capture.pose.theta = JointAngles::Zero(body_.joint_count());
-  capture.pose.theta[ankle] = 0.2;
-  capture.pose.X_WT.p = {0, 0, 1200};
-  const FurtherPoints flexed = body_.FurtherPointsAt(body_.PostureAt(capture.pose));
-  for (PoseRow& row : result_.poses) row.further_W = flexed;
+  for (PoseRow& row : result_.poses) row.further_W = LeftAnkleFlexed(0.2);
   // The ankle's axis is oblique.
   EXPECT_NEAR(MeanIn(Measure().angles_deg, "ankle_flexion_l"), 0.2 * kDegreesPerRad, 0.4);
   EXPECT_NEAR(MeanIn(Measure().angles_deg, "ankle_flexion_r"), 0, 1e-6);
+}
+
+TEST_F(ExtremityAccuracyTest, WithoutTrueHeelsFlexionHasNoZero) {
+  for (TrueExtremities& truth : truth_.extremities)
+    FurtherOf(truth.points_W, Point::kHeelL).setConstant(std::nan(""));
+  for (PoseRow& row : result_.poses) row.further_W = LeftAnkleFlexed(0.2);
+  EXPECT_NEAR(MeanIn(Measure().angles_deg, "ankle_flexion_l"), 0, 1e-6);
+  for (int i = 0; i < kSets; i += 2) result_.poses[i].further_W = LeftAnkleFlexed(0);
+  EXPECT_NEAR(MeanIn(Measure().angles_deg, "ankle_flexion_l"), 0.1 * kDegreesPerRad, 0.4);
 }
 
 TEST_F(ExtremityAccuracyTest, AContactMayBeAFrameOffAndNoMore) {
