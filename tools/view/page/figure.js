@@ -12,6 +12,8 @@ const TRAIL_POINTS = ['fingertips_l', 'fingertips_r', 'foot_l', 'foot_r'];
 const PARTS = 10;
 const RIVAL_MM = 9;
 const CONTACT_MM = 26;  // radius of a dot
+const HEEL_MM = 28;     // radii of the flesh of a foot
+const TOE_MM = 20;
 const LEAST_CONTACT = 0.5;  // a contact that holds rather than not
 const OLD_OPACITY = 0.3;
 const DOUBT_OPACITY = 0.55;
@@ -36,7 +38,8 @@ export class Figure extends THREE.Group {
     this.trails = new CapsuleMesh(
         4 * (TRAIL_MS / TRAIL_STEP_MS + 2),
         {thin: true, transparent: true, depthWrite: false, glow: 0.8});
-    this.contacts = new CapsuleMesh(4, {thin: true, transparent: true, depthWrite: false, glow: 0.9});
+    this.contacts =
+        new CapsuleMesh(4, {thin: true, transparent: true, depthWrite: false, glow: 0.9});
     this.voxels = new VoxelMesh();
     this.shadow = (onlySticks ? this.sticks : this.body).makeShadow();
     this.shadow.renderOrder = -1;
@@ -53,6 +56,7 @@ export class Figure extends THREE.Group {
   /** Sets the body's description: names of points, and their connections. */
   setModel({point_names: names, bones}) {
     this.bones = bones;
+    this.feet = ['foot_l', 'foot_r'].map((name) => names.indexOf(name));
     this.trailPoints = TRAIL_POINTS.map((name) => names.indexOf(name)).filter((i) => i >= 0);
   }
 
@@ -102,24 +106,40 @@ export class Figure extends THREE.Group {
     return {timeMs, frame, points: this.sticks.lastStarts(points.length / 3)};
   }
 
-  showBody({capsules}, opacity) {
+  /** @return place, heel and toe of each foot whose heel and toe are known. */
+  feetOf({points, contacts}) {
+    const at = (i) => [...contacts.subarray(4 * i, 4 * i + 3)];
+    const feet = this.feet.map(
+        (foot, side) => [[...points.subarray(3 * foot, 3 * foot + 3)], at(side), at(2 + side)]);
+    return feet.filter(
+        ([, heel, toe], side) => this.feet[side] >= 0 && Number.isFinite(heel[0] + toe[0]));
+  }
+
+  showBody({capsules, ...pose}, opacity) {
     this.body.clear();
     if (capsules.length / 8 > this.body.capacity) this.body.reserve(capsules.length / 8);
     for (let i = 0; i + 8 <= capsules.length; i += 8) {
       this.body.add(...capsules.subarray(i, i + 8), this.isPale ? this.paleTint : this.tint);
     }
+    for (const [, heel, toe] of capsules.length > 0 ? this.feetOf(pose) : [])
+      this.body.add(...heel, HEEL_MM, ...toe, TOE_MM, this.isPale ? this.paleTint : this.tint);
     this.body.commit();
     this.body.visible = this.shownLayers.body && this.body.count > 0;
     this.body.material.uniforms.opacity.value = opacity;
     this.body.material.depthWrite = opacity === 1;
   }
 
-  showSticks({points}, opacity) {
+  showSticks(pose, opacity) {
+    const {points} = pose;
     this.sticks.clear();
     const at = (i) => points.subarray(3 * i, 3 * i + 3);
     const radius = this.onlySticks ? 13 : 7;
     for (const [i, j] of this.bones) {
       this.sticks.add(...at(i), radius, ...at(j), radius, this.stickTint);
+    }
+    for (const corners of this.feetOf(pose)) {
+      corners.forEach(
+          (a, i) => this.sticks.add(...a, radius, ...corners[(i + 1) % 3], radius, this.stickTint));
     }
     for (let i = 0; 3 * i < points.length; ++i) {
       const size = radius * (i < PARTS && !this.onlySticks ? 1.3 : 2);

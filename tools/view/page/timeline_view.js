@@ -94,7 +94,7 @@ export class TimelineView {
     }
     if (!this.hasEvents) return;
     byId('track-legend')
-        .append('Marks: feet strike (long) and leave the floor (short), left above right.');
+        .append(' Marks: feet strike (long) and leave the floor (short), left above right.');
   }
 
   bind() {

@@ -61,13 +61,27 @@ test('a foot that touches the floor has a dot under it', () => {
   const figure = figureOf();
   figure.show(poseAt(500));
   assert.equal(figure.contacts.visible, false);
-  const contacts = Float32Array.from([10, 20, 5, 0.9, 30, 40, 5, 0.2, 50, 60, 5, 0.5, 0, 0, 0, NaN]);
+  const contacts =
+      Float32Array.from([10, 20, 5, 0.9, 30, 40, 5, 0.2, 50, 60, 5, 0.5, 0, 0, 0, NaN]);
   figure.show({...poseAt(500), contacts});
   assert.deepEqual([...figure.contacts.lastStarts(2)], [10, 20, 0, 50, 60, 0]);
   assert.equal(figure.contacts.visible, true);
   figure.setLayer('joints', false);
   figure.show({...poseAt(500), contacts});
   assert.equal(figure.contacts.visible, false);
+});
+
+test('a foot goes from its place over its heel to its toe', () => {
+  const figure = figureOf();
+  figure.show(poseAt(500));
+  const without = [figure.sticks.count, figure.body.count];
+  const contacts = new Float32Array(16).fill(NaN);
+  contacts.set([30, 40, 5, 0.9], 4);
+  contacts.set([70, 80, 5, 0.9], 12);
+  figure.show({...poseAt(500), contacts});
+  assert.deepEqual([figure.sticks.count, figure.body.count], [without[0] + 3, without[1] + 1]);
+  const sticks = [...figure.sticks.lastStarts(3 + 3)].slice(0, 9);
+  assert.deepEqual(sticks, [0, 100, 50, 30, 40, 5, 70, 80, 5]);
 });
 
 test('a pose in doubt is pale, and its rival is dashed', () => {
