@@ -215,12 +215,13 @@ class SurfaceCapture : public MotionCapture {
     if (hypotheses_.empty() || result_.state == CaptureState::kSearching) return;
     const BodyModel& body = hypotheses_.best().body;
     const PoseFilter& filter = hypotheses_.best().filter;
-    MeasureUncertainty(body, filter);
+    const Posture filtered = body.PostureAt(filter.pose());
+    MeasureUncertainty(body, filtered, filter);
     if (result_.state != CaptureState::kTracking) {
       steady_.Reset();
       feet_.Reset();
     }
-    result_.contacts = feet_.Update(body, body.PostureAt(filter.pose()), dt_s);
+    result_.contacts = feet_.Update(body, filtered, dt_s);
     result_.foot_motions = feet_.motions();
     result_.pose = steady_.Follow(body, filter, result_.point_std_mm, result_.contacts, dt_s);
     for (double& std_mm : result_.point_std_mm) std_mm = std::hypot(std_mm, kBodyStd_mm);
@@ -240,8 +241,7 @@ class SurfaceCapture : public MotionCapture {
     }
   }
 
-  void MeasureUncertainty(const BodyModel& body, const PoseFilter& filter) {
-    const Posture posture = body.PostureAt(filter.pose());
+  void MeasureUncertainty(const BodyModel& body, const Posture& posture, const PoseFilter& filter) {
     const BodyPoints points_W = body.PointsAt(posture);
     const FurtherPoints further_W = body.FurtherPointsAt(posture);
     for (int i = 0; i < kPointCount; ++i)
