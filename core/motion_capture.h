@@ -19,10 +19,11 @@
 namespace mocap {
 
 /// State of the capture: nobody there; sizes being measured; body tracked; body no longer matched.
-enum class CaptureState { kSearching = 0, kAcquiring = 1, kTracking = 2, kLost = 3 };
+/// Only in takes that were solved: not matched, but the sets before and after show the motion.
+enum class CaptureState { kSearching = 0, kAcquiring = 1, kTracking = 2, kLost = 3, kBridged = 4 };
 
-inline constexpr std::array<std::string_view, 4> kCaptureStateNames = {"searching", "acquiring",
-                                                                       "tracking", "lost"};
+inline constexpr std::array<std::string_view, 5> kCaptureStateNames = {
+    "searching", "acquiring", "tracking", "lost", "bridged"};
 
 /// The evidence of one frame set for a person, and for all people nearby. Borrowed.
 struct Observation {

@@ -1,6 +1,5 @@
 #include "core/surface_capture.h"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <memory>
@@ -10,6 +9,7 @@
 #include "core/counted_time.h"
 #include "core/evidence/evidence.h"
 #include "core/hypotheses/hypothesis_set.h"
+#include "core/hypotheses/pose_deviations.h"
 #include "core/hypotheses/steady_pose.h"
 #include "core/proposals/scheduler.h"
 #include "core/proposals/stance_search.h"
@@ -33,23 +33,6 @@ struct StateLimits {
   double stranger_nats = 6.9;
 };
 constexpr StateLimits kLimits{};
-// Joints lie elsewhere in a person than in the body by about this, which no fit shows. With it, 88
-// to 100 % of the errors of people like ours are within two deviations (`mocap evaluate`).
-constexpr double kBodyStd_mm = 15;
-
-// Standard deviation of a point along its worst axis, from those of the joints that move it [mm].
-// NaN for a point that the body does not have.
-double DeviationOf(const BodyModel& body, const Posture& posture, Point point, const Vector3& p_WQ,
-                   const PoseCovariance& pose) {
-  if (!p_WQ.allFinite()) return std::nan("");
-  Eigen::Matrix<double, 3, Eigen::Dynamic, Eigen::ColMajor, 3, kMaxDof> J(3, body.dof());
-  body.PointJacobian(posture, body.CarrierOf(point), p_WQ, J);
-  const Matrix3 covariance = J * pose * J.transpose();
-  Eigen::SelfAdjointEigenSolver<Matrix3> axes;
-  axes.computeDirect(covariance, Eigen::EigenvaluesOnly);
-  return std::sqrt(std::max(0.0, axes.eigenvalues().maxCoeff()) / kFrameWorth);
-}
-
 class SurfaceCapture : public MotionCapture {
  public:
   explicit SurfaceCapture(const BodyTable& table)
@@ -216,7 +199,7 @@ class SurfaceCapture : public MotionCapture {
     const BodyModel& body = hypotheses_.best().body;
     const PoseFilter& filter = hypotheses_.best().filter;
     const Posture filtered = body.PostureAt(filter.pose());
-    MeasureUncertainty(body, filtered, filter);
+    SetDeviations(body, filtered, filter.covariance() / kFrameWorth, result_);
     if (result_.state != CaptureState::kTracking) {
       steady_.Reset();
       feet_.Reset();
@@ -224,8 +207,7 @@ class SurfaceCapture : public MotionCapture {
     result_.contacts = feet_.Update(body, filtered, dt_s);
     result_.foot_motions = feet_.motions();
     result_.pose = steady_.Follow(body, filter, result_.point_std_mm, result_.contacts, dt_s);
-    for (double& std_mm : result_.point_std_mm) std_mm = std::hypot(std_mm, kBodyStd_mm);
-    for (double& std_mm : result_.further_std_mm) std_mm = std::hypot(std_mm, kBodyStd_mm);
+    AddBodyError(result_);
     const Posture posture = body.PostureAt(result_.pose);
     result_.points_W = body.PointsAt(posture);
     result_.further_W = body.FurtherPointsAt(posture);
@@ -239,21 +221,6 @@ class SurfaceCapture : public MotionCapture {
       result_.rival = {hypotheses_.ProbabilityOf(*rival),
                        rival->body.PointsAt(rival->body.PostureAt(rival->filter.pose()))};
     }
-  }
-
-  void MeasureUncertainty(const BodyModel& body, const Posture& posture, const PoseFilter& filter) {
-    const BodyPoints points_W = body.PointsAt(posture);
-    const FurtherPoints further_W = body.FurtherPointsAt(posture);
-    for (int i = 0; i < kPointCount; ++i)
-      result_.point_std_mm[i] =
-          DeviationOf(body, posture, static_cast<Point>(i), points_W.col(i), filter.covariance());
-    for (int i = 0; i < kFurtherPointCount; ++i) {
-      const auto point = static_cast<Point>(kPointCount + i);
-      result_.further_std_mm[i] =
-          DeviationOf(body, posture, point, further_W.col(i), filter.covariance());
-    }
-    const auto variances = filter.covariance().diagonal().tail(body.joint_count());
-    result_.joint_std_rad = (variances / kFrameWorth).cwiseMax(0).cwiseSqrt();
   }
 
   Scheduler scheduler_;

@@ -19,19 +19,43 @@ double ShareOf(const ContactOdds& odds, const FootMotion& motion) {
   return 1 / (1 + std::exp(-nats));
 }
 
+bool IsHeel(int contact) { return contact < 2; }
+
 }  // namespace
 
-FootContacts::FootPoints FootContacts::PointsOf(const FurtherPoints& further_W) {
+FootPlaces FootPlacesOf(const FurtherPoints& further_W) {
   const auto pair = [&](Point left) {
     return further_W.middleCols<2>(static_cast<int>(left) - kPointCount);
   };
-  FootPoints points_W;
-  points_W << pair(Point::kHeelL), pair(Point::kToeL), pair(Point::kBallL);
-  return points_W;
+  FootPlaces places_W;
+  places_W << pair(Point::kHeelL), pair(Point::kToeL), pair(Point::kBallL);
+  return places_W;
+}
+
+FootMotions MotionsOf(const FootPlaces& places_W, const FootPlaces& velocity_W) {
+  const auto motion_of = [&](int i) {
+    return FootMotion{places_W(2, i), velocity_W.col(i).norm()};
+  };
+  FootMotions motions;
+  for (int i = 0; i < kContactCount; ++i) {
+    motions[i] = motion_of(i);
+    if (IsHeel(i)) continue;
+    const FootMotion ball = motion_of(i + 2);
+    motions[i].height_mm = std::min(motions[i].height_mm, ball.height_mm);
+    motions[i].speed_mm_s = std::min(motions[i].speed_mm_s, ball.speed_mm_s);
+  }
+  return motions;
+}
+
+Contacts ContactsOf(const FootMotions& motions) {
+  Contacts contacts;
+  for (int i = 0; i < kContactCount; ++i)
+    contacts[i] = ShareOf(IsHeel(i) ? kHeelOdds : kToeOdds, motions[i]);
+  return contacts;
 }
 
 Contacts FootContacts::Update(const BodyModel& body, const Posture& posture, double dt_s) {
-  const FootPoints now_W = PointsOf(body.FurtherPointsAt(posture));
+  const FootPlaces now_W = FootPlacesOf(body.FurtherPointsAt(posture));
   if (!now_W.allFinite()) {
     before_W_.reset();
     return kUnknownContacts;
@@ -41,24 +65,10 @@ Contacts FootContacts::Update(const BodyModel& body, const Posture& posture, dou
     return kUnknownContacts;
   }
   const double share = 1 - std::exp(-dt_s / kSpeedTime_s);
-  const FootPoints moved_W = share * (now_W - *before_W_);
-  const auto motion_of = [&](int i) {
-    return FootMotion{now_W(2, i), moved_W.col(i).norm() / dt_s};
-  };
-  Contacts contacts;
-  for (int i = 0; i < kContactCount; ++i) {
-    motions_[i] = motion_of(i);
-    const bool is_heel = i < 2;
-    if (!is_heel) {
-      // A foot that rolls off stands on its ball, then on its toes.
-      const FootMotion ball = motion_of(i + 2);
-      motions_[i].height_mm = std::min(motions_[i].height_mm, ball.height_mm);
-      motions_[i].speed_mm_s = std::min(motions_[i].speed_mm_s, ball.speed_mm_s);
-    }
-    contacts[i] = ShareOf(is_heel ? kHeelOdds : kToeOdds, motions_[i]);
-  }
+  const FootPlaces moved_W = share * (now_W - *before_W_);
+  motions_ = MotionsOf(now_W, moved_W / dt_s);
   *before_W_ += moved_W;
-  return contacts;
+  return ContactsOf(motions_);
 }
 
 }  // namespace mocap

@@ -37,6 +37,17 @@ struct FootMotion {
 
 using FootMotions = std::array<FootMotion, kContactCount>;
 
+/// Heels, toes and balls of the left and the right foot; 3 × 6 [mm].
+using FootPlaces = Eigen::Matrix<double, 3, 6>;
+FootPlaces FootPlacesOf(const FurtherPoints& further_W);
+
+/// What contacts are judged by. A foot that rolls off stands on its ball, then on its toes: the
+/// toes' motion is that of whichever is lower, or slower.
+/// @param velocity_W  of the places [mm/s].
+FootMotions MotionsOf(const FootPlaces& places_W, const FootPlaces& velocity_W);
+/// How likely heels and toes touch the floor.
+Contacts ContactsOf(const FootMotions& motions);
+
 /// Tells contacts by the motion of a body's feet.
 class FootContacts {
  public:
@@ -51,11 +62,7 @@ class FootContacts {
   const FootMotions& motions() const { return motions_; }
 
  private:
-  // Heels, toes and balls of the left and the right foot.
-  using FootPoints = Eigen::Matrix<double, 3, 6>;
-  static FootPoints PointsOf(const FurtherPoints& further_W);
-
-  std::optional<FootPoints> before_W_;  ///< Follows the points.
+  std::optional<FootPlaces> before_W_;  ///< Follows the places.
   FootMotions motions_{};
 };
 

@@ -21,6 +21,12 @@ void UpdateEquations::Add(const PoseStep& J, double residual, double variance) {
   gradient_ += J * (residual / variance);
 }
 
+void UpdateEquations::Weigh(double worth) {
+  for (int j = 0; j < dof_; ++j)
+    for (int i = 0; i <= j; ++i) columns_[j][i] *= worth;
+  gradient_ *= worth;
+}
+
 const PoseCovariance& UpdateEquations::information() {
   information_.resize(dof_, dof_);
   for (int j = 0; j < dof_; ++j) {

@@ -19,6 +19,9 @@ class UpdateEquations {
   void AddPoint(const Eigen::Ref<const Eigen::Matrix<double, 3, Eigen::Dynamic>>& J,
                 const Vector3& residual_mm, double variance_mm2);
 
+  /// Multiplies everything added so far, as if all variances were that much smaller.
+  void Weigh(double worth);
+
   /// AddProduct adds to one entry JᵢᵀR⁻¹Jⱼ with i <= j, AddGradient to one of JᵀR⁻¹(z - h(x)).
   void AddProduct(int i, int j, double sum) { columns_[j][i] += sum; }
   void AddGradient(int i, double sum) { gradient_[i] += sum; }

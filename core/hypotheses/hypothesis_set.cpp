@@ -8,21 +8,6 @@
 namespace mocap {
 namespace {
 
-// How odds decide.
-struct Odds {
-  // Residuals of frames this close in time correlate by 0.7 (`mocap benchmark --parts noise`).
-  double alike_s = 0.1;
-  double change = 19, drop = 1000;  // 19 to 1 change the mind; 1 to 1000 end a hypothesis.
-  std::size_t most = 4;             // Hypotheses.
-  // A pose that is worse by this than the believed one before it is fitted is not fitted: of 149
-  // that were worse by 80, in three takes, one was better after the fit.
-  double hopeless_nats = 70;
-  double same_mm = 30;  // Mean distance of the points of poses that are equal.
-  // Larger differences between motion and prediction are out of reach of a fit.
-  double leap_mm = 50;
-};
-constexpr Odds kOdds{};
-
 bool AreSame(const Hypothesis& a, const Hypothesis& b) {
   return MeanDistance(a.body, a.filter.pose(), b.body, b.filter.pose()) < kOdds.same_mm;
 }
@@ -45,6 +30,8 @@ void FollowLeap(Objective& objective, const Vector3& unforeseen_W, Hypothesis& h
 
 }  // namespace
 
+double FrameWorth(double dt_s) { return kFrameWorth * std::min(1.0, dt_s / kOdds.alike_s); }
+
 void HypothesisSet::Begin(std::vector<Hypothesis> hypotheses,
                           const std::optional<Vector3>& middle_W) {
   hypotheses_ = std::move(hypotheses);
@@ -57,7 +44,7 @@ void HypothesisSet::Begin(std::vector<Hypothesis> hypotheses,
 void HypothesisSet::Follow(Objective& objective, double dt_s) {
   const Vector3 middle_W = objective.evidence().cloud.Centroid();
   const Vector3 moved_W = middle_W_ ? Vector3(middle_W - *middle_W_) : Vector3::Zero();
-  worth_ = kFrameWorth * std::min(1.0, dt_s / kOdds.alike_s);
+  worth_ = FrameWorth(dt_s);
   for (Hypothesis& hypothesis : hypotheses_) {
     const Vector3 before_W = hypothesis.filter.pose().X_WT.p;
     if (dt_s > 0) hypothesis.filter.Predict(dt_s);

@@ -7,10 +7,27 @@
 
 namespace mocap {
 
+/// How odds decide.
+struct Odds {
+  /// Residuals of frames this close in time correlate by 0.7 (`mocap benchmark --parts noise`).
+  double alike_s = 0.1;
+  double change = 19, drop = 1000;  ///< 19 to 1 change the mind; 1 to 1000 end a hypothesis.
+  std::size_t most = 4;             ///< Hypotheses.
+  /// A pose that is worse by this than the believed one before it is fitted is not fitted: of 149
+  /// that were worse by 80, in three takes, one was better after the fit.
+  double hopeless_nats = 70;
+  double same_mm = 30;  ///< Mean distance of the points of poses that are equal.
+  /// Larger differences between motion and prediction are out of reach of a fit.
+  double leap_mm = 50;
+};
+inline constexpr Odds kOdds{};
+
 /// A frame's -log p counts this much, because residuals all over a body err alike. With 0.1 to 0.4,
 /// depending on how hard the frames are, the odds of right and wrong poses are as often right as
 /// they say (`mocap benchmark --parts noise`).
 inline constexpr double kFrameWorth = 0.25;
+/// The same for a frame that follows another one closely: all frames within 0.1 s count as one.
+double FrameWorth(double dt_s);
 
 /// A few explanations of one person. One frame does not tell arms that cross from arms that touch,
 /// the front of a person in a skirt from the back, or a limb from a ghost; some frames do.

@@ -25,7 +25,33 @@ std::optional<PoseCovariance> InverseOfPositive(const PoseCovariance& matrix) {
   return PoseCovariance(0.5 * (inverse + inverse.transpose()));
 }
 
+PoseStep NoiseDensity(const MotionNoise& noise, int dof) {
+  PoseStep density(dof);
+  density.head<3>().setConstant(noise.translation_mm * noise.translation_mm);
+  density.segment<3>(3).setConstant(noise.rotation_rad * noise.rotation_rad);
+  density.tail(dof - kTorsoDof).setConstant(noise.joint_rad * noise.joint_rad);
+  return density;
+}
+
 }  // namespace
+
+MotionTransition::MotionTransition(const MotionNoise& noise, double dt_s)
+    : decay(std::exp(-dt_s / noise.velocity_decay_s)),
+      reach_s(noise.velocity_decay_s * (1 - decay)) {}
+
+void MotionState::Propagate(const MotionNoise& noise, double dt_s) {
+  const double tau_s = noise.velocity_decay_s;
+  const auto [decay, reach_s] = MotionTransition(noise, dt_s);
+  pose.Add(velocity * reach_s);
+  velocity *= decay;
+  P += reach_s * (P_vx + P_vx.transpose()) + reach_s * reach_s * P_vv;
+  P_vx = decay * (P_vx + reach_s * P_vv);
+  P_vv *= decay * decay;
+  const PoseStep density = NoiseDensity(noise, pose.dof());
+  P.diagonal() += density * (tau_s * tau_s * (dt_s - reach_s) - tau_s * reach_s * reach_s / 2);
+  P_vx.diagonal() += density * (reach_s * reach_s / 2);
+  P_vv.diagonal() += density * (tau_s * (1 - decay * decay) / 2);
+}
 
 void PoseFilter::Reset(const PoseState& pose, double translation_std_mm, double angle_std_rad) {
   PoseStep std = PoseStep::Constant(pose.dof(), angle_std_rad);
@@ -34,67 +60,42 @@ void PoseFilter::Reset(const PoseState& pose, double translation_std_mm, double 
 }
 
 void PoseFilter::Reset(const PoseState& pose, const PoseStep& std) {
-  pose_ = pose;
-  P_ = std.array().square().matrix().asDiagonal();
+  state_.pose = pose;
+  state_.P = std.array().square().matrix().asDiagonal();
   ForgetVelocity();
 }
 
 void PoseFilter::Jump(const PoseState& pose) { Reset(pose, 30, 0.3); }
 
-PoseStep PoseFilter::NoiseDensity() const {
-  const int n = pose_.dof();
-  PoseStep density(n);
-  density.head<3>().setConstant(noise_.translation_mm * noise_.translation_mm);
-  density.segment<3>(3).setConstant(noise_.rotation_rad * noise_.rotation_rad);
-  density.tail(n - kTorsoDof).setConstant(noise_.joint_rad * noise_.joint_rad);
-  return density;
-}
-
-PoseStep PoseFilter::VelocityVariance() const {
-  return NoiseDensity() * (noise_.velocity_decay_s / 2);
-}
-
+// Somebody who is seen for the first time may have any velocity of the motion model.
 void PoseFilter::ForgetVelocity() {
-  const int n = pose_.dof();
-  velocity_.setZero(n);
-  P_vx_.setZero(n, n);
-  P_vv_ = VelocityVariance().asDiagonal();
+  const int n = state_.pose.dof();
+  state_.velocity.setZero(n);
+  state_.P_vx.setZero(n, n);
+  const PoseStep variance = NoiseDensity(noise_, n) * (noise_.velocity_decay_s / 2);
+  state_.P_vv = variance.asDiagonal();
 }
 
 PoseState PoseFilter::PredictedPose(double dt_s) const {
-  PoseState pose = pose_;
-  pose.Add(velocity_ * (noise_.velocity_decay_s * (1 - std::exp(-dt_s / noise_.velocity_decay_s))));
+  PoseState pose = state_.pose;
+  pose.Add(state_.velocity * MotionTransition(noise_, dt_s).reach_s);
   return pose;
 }
 
-void PoseFilter::Predict(double dt_s) {
-  const double tau_s = noise_.velocity_decay_s;
-  const double decay = std::exp(-dt_s / tau_s);
-  const double reach_s = tau_s * (1 - decay);
-  pose_.Add(velocity_ * reach_s);
-  velocity_ *= decay;
-  P_ += reach_s * (P_vx_ + P_vx_.transpose()) + reach_s * reach_s * P_vv_;
-  P_vx_ = decay * (P_vx_ + reach_s * P_vv_);
-  P_vv_ *= decay * decay;
-  const PoseStep density = NoiseDensity();
-  P_.diagonal() += density * (tau_s * tau_s * (dt_s - reach_s) - tau_s * reach_s * reach_s / 2);
-  P_vx_.diagonal() += density * (reach_s * reach_s / 2);
-  P_vv_.diagonal() += density * (tau_s * (1 - decay * decay) / 2);
-}
-
 PoseCovariance PoseFilter::Iterate(const Linearize& linearize, const Iterations& iterations,
+                                   const PoseState& prior,
                                    const PoseCovariance& prior_information) {
-  const PoseState prior = pose_;
+  PoseState& pose = state_.pose;
   UpdateEquations equations;
   PoseCovariance information;
   bool goes_far = false;
   for (int i = 0; i < (goes_far ? iterations.most : iterations.usual); ++i) {
-    equations.Reset(pose_.dof());
-    linearize(pose_, equations);
+    equations.Reset(pose.dof());
+    linearize(pose, equations);
     information = prior_information + equations.information();
-    const PoseStep gradient = equations.gradient() - prior_information * pose_.Minus(prior);
+    const PoseStep gradient = equations.gradient() - prior_information * pose.Minus(prior);
     const PoseStep step = Eigen::LLT<PoseCovariance>(information).solve(gradient);
-    pose_.Add(step);
+    pose.Add(step);
     const double step_mm = step.head<3>().norm(), step_rad = step.tail(step.size() - 3).norm();
     if (step_mm < kSteps.small_mm && step_rad < kSteps.small_rad) break;
     goes_far = step_mm > kSteps.far_mm || step_rad > kSteps.far_rad;
@@ -103,31 +104,34 @@ PoseCovariance PoseFilter::Iterate(const Linearize& linearize, const Iterations&
 }
 
 void PoseFilter::Draw(const Linearize& linearize, const Iterations& iterations) {
-  const PoseState prior = pose_;
-  const auto prior_information = InverseOfPositive(P_);
-  if (prior_information) Iterate(linearize, iterations, *prior_information);
-  is_sound_ = prior_information && pose_.IsFinite();
-  if (!is_sound_) pose_ = prior;
+  const PoseState prior = pose();
+  const auto prior_information = InverseOfPositive(state_.P);
+  if (prior_information) Iterate(linearize, iterations, prior, *prior_information);
+  is_sound_ = prior_information && pose().IsFinite();
+  if (!is_sound_) state_.pose = prior;
 }
 
-void PoseFilter::Update(const Linearize& linearize, const Iterations& iterations) {
-  const PoseState prior = pose_;
-  const auto prior_information = InverseOfPositive(P_);
-  const auto posterior = prior_information
-                             ? InverseOfPositive(Iterate(linearize, iterations, *prior_information))
-                             : std::nullopt;
-  is_sound_ = posterior && pose_.IsFinite();
+void PoseFilter::UpdateFrom(const PoseState& start, const Linearize& linearize,
+                            const Iterations& iterations) {
+  const PoseState prior = pose();
+  const auto prior_information = InverseOfPositive(state_.P);
+  state_.pose = start;
+  const auto posterior =
+      prior_information
+          ? InverseOfPositive(Iterate(linearize, iterations, prior, *prior_information))
+          : std::nullopt;
+  is_sound_ = posterior && pose().IsFinite();
   if (!is_sound_) {
-    pose_ = prior;
+    state_.pose = prior;
     return;
   }
   // The velocity was not measured. It follows the pose according to their correlation.
-  const PoseCovariance gain = P_vx_ * *prior_information;
-  velocity_ += gain * pose_.Minus(prior);
-  P_vv_ -= gain * (P_ - *posterior) * gain.transpose();
-  P_vv_ = PoseCovariance(0.5 * (P_vv_ + P_vv_.transpose()));
-  P_vx_ = gain * *posterior;
-  P_ = *posterior;
+  const PoseCovariance gain = state_.P_vx * *prior_information;
+  state_.velocity += gain * pose().Minus(prior);
+  state_.P_vv -= gain * (state_.P - *posterior) * gain.transpose();
+  state_.P_vv = PoseCovariance(0.5 * (state_.P_vv + state_.P_vv.transpose()));
+  state_.P_vx = gain * *posterior;
+  state_.P = *posterior;
 }
 
 }  // namespace mocap

@@ -22,6 +22,27 @@ struct MotionNoise {
   double joint_rad = 20;           ///< [rad/s²/√Hz]
 };
 
+/// A pose, its rate, and the joint covariance of their errors in the tangent space of the pose.
+struct MotionState {
+  PoseState pose;
+  PoseStep velocity;    ///< [mm/s, rad/s]
+  PoseCovariance P;     ///< Of the pose.
+  PoseCovariance P_vx;  ///< Of velocity and pose.
+  PoseCovariance P_vv;  ///< Of the velocity.
+
+  /// Moves on by a time `dt_s`.
+  void Propagate(const MotionNoise& noise, double dt_s);
+};
+
+/// How the state of a moment later depends on this one, but for noise: the pose on the velocity,
+/// and the velocity on itself.
+struct MotionTransition {
+  MotionTransition(const MotionNoise& noise, double dt_s);
+
+  double decay;    ///< Share of the velocity that is left.
+  double reach_s;  ///< Time in which the velocity would lead as far if it stayed.
+};
+
 /// Number of linearisations: at most `usual` if the pose converges, and up to `most` while it still
 /// moves far.
 struct Iterations {
@@ -42,13 +63,18 @@ class PoseFilter {
   /// Predicts the pose after a time `dt_s`; the filter does not change.
   PoseState PredictedPose(double dt_s) const;
   /// Propagates pose and covariance by a time `dt_s`.
-  void Predict(double dt_s);
+  void Predict(double dt_s) { state_.Propagate(noise_, dt_s); }
 
   /// Linearises the measurements at a pose; called once per iteration.
   using Linearize = std::function<void(const PoseState&, UpdateEquations&)>;
 
   /// Updates with measurements, which are linearised again in each iteration.
-  void Update(const Linearize& linearize, const Iterations& iterations);
+  void Update(const Linearize& linearize, const Iterations& iterations) {
+    UpdateFrom(pose(), linearize, iterations);
+  }
+  /// The same, first linearised at a given pose: of several poses that explain the measurements,
+  /// the one next to it is found.
+  void UpdateFrom(const PoseState& start, const Linearize& linearize, const Iterations& iterations);
 
   /// Moves the pose as Update does, but keeps covariance and velocity.
   void Draw(const Linearize& linearize, const Iterations& iterations);
@@ -56,32 +82,26 @@ class PoseFilter {
   /// Whether the last update produced a pose and a covariance. Otherwise the pose stayed the same,
   /// and the track is lost.
   bool is_sound() const { return is_sound_; }
-  const PoseState& pose() const { return pose_; }
-  const PoseCovariance& covariance() const { return P_; }
+  const PoseState& pose() const { return state_.pose; }
+  const PoseCovariance& covariance() const { return state_.P; }
+  const MotionState& state() const { return state_; }
 
   /// Moves the whole body, as if it had been predicted there.
-  void Shift(const Vector3& by_W) { pose_.X_WT.p += by_W; }
+  void Shift(const Vector3& by_W) { state_.pose.X_WT.p += by_W; }
 
   /// Jumps to a pose that was found by other means. Everything that was correlated with the old one
   /// becomes unknown.
   void Jump(const PoseState& pose);
 
  private:
-  // Returns the information about the pose at convergence.
+  // Moves the pose from where it is to convergence, and returns the information about it there.
   PoseCovariance Iterate(const Linearize& linearize, const Iterations& iterations,
-                         const PoseCovariance& prior_information);
-  PoseStep NoiseDensity() const;
-  PoseStep VelocityVariance() const;  // For a person who is seen for the first time.
+                         const PoseState& prior, const PoseCovariance& prior_information);
   void ForgetVelocity();
 
   MotionNoise noise_;
   bool is_sound_ = true;
-  PoseState pose_;
-  PoseStep velocity_;
-  // Blocks of the joint covariance of pose error and velocity.
-  PoseCovariance P_;
-  PoseCovariance P_vx_;
-  PoseCovariance P_vv_;
+  MotionState state_;
 };
 
 }  // namespace mocap

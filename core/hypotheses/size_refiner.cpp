@@ -99,7 +99,8 @@ SizeRefiner::SizeRefiner(const BodyModel& body)
       information_(Eigen::MatrixXd::Zero(count_, count_)),
       vector_(Eigen::VectorXd::Zero(count_)) {}
 
-void SizeRefiner::Add(const BodyModel& body, Objective& objective, const PoseState& pose) {
+void SizeRefiner::Add(const BodyModel& body, Objective& objective, const PoseState& pose,
+                      double worth) {
   by_size_.Update(body, pose);
   const int pose_dof = body.dof();
   const int n = pose_dof + count_;
@@ -113,8 +114,8 @@ void SizeRefiner::Add(const BodyModel& body, Objective& objective, const PoseSta
       row[pose_dof + i] =
           by_size_.OutwardBySize(residual.capsule, residual.share, residual.normal_W, i);
     // A residual depends on one chain of joints and on few sizes: most of its row is zero.
-    kernels::AddSquareBelow(row.data(), n, 1 / residual.variance, H.data());
-    g += row * (residual.outside_mm / residual.variance);
+    kernels::AddSquareBelow(row.data(), n, worth / residual.variance, H.data());
+    g += row * (worth * residual.outside_mm / residual.variance);
   }
   H = Information(H.selfadjointView<Eigen::Lower>());
   for (int i = 0; i < pose_dof; ++i) {

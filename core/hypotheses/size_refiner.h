@@ -22,7 +22,8 @@ class SizeRefiner {
 
   /// Adds a frame that was fitted well.
   /// @param objective  holds the frame's evidence.
-  void Add(const BodyModel& body, Objective& objective, const PoseState& pose);
+  /// @param worth      how much the frame counts: those close in time err alike.
+  void Add(const BodyModel& body, Objective& objective, const PoseState& pose, double worth = 1);
   /// Returns the most likely sizes from all frames so far.
   BodySizes Sizes() const;
   int frames() const { return frames_; }

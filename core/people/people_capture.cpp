@@ -13,9 +13,9 @@ namespace {
 
 // When flesh is somebody's, and somebody is there; chosen on takes of several people.
 struct PeopleLimits {
-  // Flesh this close to a predicted body may be its own, and farther away after a time without
-  // tracking, at the speed of a walk, up to a stride.
-  double reach_mm = 220, walk_mm_s = 1000;
+  // Flesh farther away may be somebody's own after a time without tracking, at the speed of a walk,
+  // up to a stride.
+  double walk_mm_s = 1000;
   // Cameras that must show a newcomer where nobody else is; with few cameras, all but one. A person
   // whom fewer than the least show is dropped.
   int least_cameras = 2, cameras = 4;
@@ -154,7 +154,7 @@ void PeopleCapture::PoseMembers(std::int64_t capture_ns) {
   for (std::size_t i = 0; i < posed_.size(); ++i) {
     const Member& member = *posed_member_[i];
     PosePerson(member.capture->body(), member.capture->PredictedPose(capture_ns),
-               kLimits.reach_mm + member.strayed_mm, posed_[i]);
+               kReachMm + member.strayed_mm, posed_[i]);
     posed_[i].is_lost = member.is_lost();
   }
 }

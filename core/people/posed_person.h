@@ -15,6 +15,9 @@ namespace mocap {
 /// may belong to a lost limb.
 inline constexpr double kExplainsMm = 80;
 
+/// Flesh this close to a predicted body may be its own.
+inline constexpr double kReachMm = 220;
+
 /// A carved-away limb may be this far from its prediction or from the flesh.
 inline constexpr double kAsideMm = 100;
 

@@ -31,9 +31,6 @@ std::size_t CountCameras(const Studio& studio) {
   return studio.cameras.size();
 }
 
-/// Rays of outlines, as a multiple of those for one person.
-int FinenessFor(int people) { return people > 1 ? kMostRays / kRaysPerPerson : 1; }
-
 ThreadOptions ThreadsFor(const PipelineOptions& options) {
   return {.priority = options.priority,
           .processors = options.processors,

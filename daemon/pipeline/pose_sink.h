@@ -20,7 +20,9 @@ struct TrackedSet {
   const BodyModel& body;                    ///< The same person's.
   std::span<const PersonView> people = {};  ///< All of them.
   const VoxelGrid& grid;
-  std::span<const Outline> outlines = {};  ///< One per camera of the studio.
+  std::span<const Outline> outlines = {};          ///< One per camera of the studio.
+  std::span<const Eigen::Vector3i> doubtful = {};  ///< As in CarvedSet.
+  Eigen::AlignedBox3d person_box_W = {};           ///< As in CarvedSet.
 };
 
 /// Receives tracked sets in order, in the pipeline's last thread.

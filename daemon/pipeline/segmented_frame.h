@@ -12,6 +12,8 @@ namespace mocap {
 /// Maximum number of rays for one person's outline. With several people, outlines have more.
 inline constexpr int kRaysPerPerson = 100;
 inline constexpr int kMostRays = 2 * kRaysPerPerson;
+/// Rays of an outline where up to this many people are tracked, as a multiple of one person's.
+constexpr int FinenessFor(int people) { return people > 1 ? kMostRays / kRaysPerPerson : 1; }
 
 /// Trimap and outline of one picture.
 struct SegmentedFrame {

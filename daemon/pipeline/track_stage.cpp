@@ -96,7 +96,9 @@ void TrackStage::Process(const CarvedSet& set) {
                .body = first.body(),
                .people = people_.people(),
                .grid = set.grid,
-               .outlines = set.outlines});
+               .outlines = set.outlines,
+               .doubtful = set.doubtful,
+               .person_box_W = set.person_box_W});
   recorders_[Stage::kPublish].Record(SteadyNs() - publish_ns);
   const std::int64_t from_ns =
       origin_ == LatencyOrigin::kCapture ? set.capture_ns : set.complete_ns;

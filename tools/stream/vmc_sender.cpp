@@ -64,6 +64,7 @@ Status StatusOf(CaptureState state) {
     case CaptureState::kTracking:
       return {1, 3, 1};
     case CaptureState::kLost:
+    case CaptureState::kBridged:
       return {1, 3, 0};
   }
   return {0, 0, 0};

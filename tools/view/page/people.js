@@ -8,7 +8,7 @@ import {figureColor} from './theme.js';
 export const OLD_MS = 250;   // An older pose is always marked as old.
 const HIDE_BODY_MS = 10000;  // Older bodies are useless.
 // Ranking of states: with several people, the studio has the best one's.
-const RANK = ['searching', 'lost', 'acquiring', 'tracking'];
+const RANK = ['searching', 'lost', 'bridged', 'acquiring', 'tracking'];
 
 export class People {
   /** @param scene the 3-D scene, or null without WebGL. */

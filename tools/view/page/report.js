@@ -6,7 +6,7 @@ import {placeOf, svgPlot} from './svg_plot.js';
 import {fixed} from './text.js';
 import {figureColor, startTheme} from './theme.js';
 import {runsOf} from './timeline.js';
-import {STATES} from './wire.js';
+import {BRIDGED, STATES} from './wire.js';
 
 const PICTURE_PX = 800;  // width of a drawn picture, for screens of high resolution and paper
 const PICTURE_CSS_PX = 400;  // for which the lines have their width
@@ -99,9 +99,10 @@ function drawStates({people}) {
     return [...name, make('div', {class: 'band'}, ...runs)];
   });
   const all = people.flatMap((person) => person.states);
-  const key = STATES.map((state, i) => make(
+  const counts = STATES.map((state, i) => ({state, count: all.filter((value) => value === i).length}));
+  const key = counts.filter(({count}, i) => i !== BRIDGED || count > 0).map(({state, count}) => make(
       'span', {class: 'state-entry'}, make('span', {class: `state-key ${state}`}),
-      `${state} ${all.filter((value) => value === i).length}`));
+      `${state} ${count}`));
   return make('section', {}, ...bands, make('p', {class: 'note'}, ...key));
 }
 

@@ -5,7 +5,7 @@ import {beginPlot, drawLabel, drawLevel} from './plot.js';
 import {fixed} from './text.js';
 import {color, figureColor, onTheme} from './theme.js';
 import {columnsOf, niceTop, placeAt, quantileOf, runsOf, SPEEDS} from './timeline.js';
-import {STATES} from './wire.js';
+import {BRIDGED, STATES} from './wire.js';
 
 const LEFT = 44;
 const BAND = 12;
@@ -85,9 +85,9 @@ export class TimelineView {
 
   tellLegend() {
     setText(
-        byId('track-legend'),
-        this.hasTruth ? 'Mean error over the joints [mm]. ' : 'Fit [mm]. ');
-    for (const state of STATES) {
+        byId('track-legend'), this.hasTruth ? 'Mean error over the joints [mm]. ' : 'Fit [mm]. ');
+    const isBridged = this.take.results.some(({states}) => states.includes(BRIDGED));
+    for (const state of STATES.filter((_, i) => i !== BRIDGED || isBridged)) {
       byId('track-legend')
           .append(make(
               'span', {class: 'state-entry'}, make('span', {class: `state-key ${state}`}), state));

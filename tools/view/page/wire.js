@@ -1,7 +1,8 @@
 // Decodes the binary messages of `mocap view`. Little-endian, like all machines that run browsers.
 
 /** Names of the states, by their number in a pose message. */
-export const STATES = ['searching', 'acquiring', 'tracking', 'lost'];
+export const STATES = ['searching', 'acquiring', 'tracking', 'lost', 'bridged'];
+export const BRIDGED = STATES.indexOf('bridged');  // Only in takes that were solved.
 
 export const POSE = 1;
 export const VOXELS = 2;
