@@ -1,7 +1,9 @@
 #include "tools/report/evaluation.h"
 
+#include <algorithm>
 #include <utility>
 
+#include "core/evaluation/jitter.h"
 #include "tools/results/export_axes.h"
 
 namespace mocap {
@@ -19,6 +21,39 @@ std::vector<std::vector<PoseSample>> TrackedRuns(const std::vector<PoseRow>& pos
     in_run = IsTracked(row);
   }
   return runs;
+}
+
+/// Runs of the tracked frames' points, and of the truth's in the frames that have one.
+struct PointRuns {
+  std::vector<std::vector<ScoredPoints>> tracked, true_ones;
+};
+
+PointRuns PointRunsOf(const Evaluation& evaluation) {
+  const std::vector<PoseRow>& poses = evaluation.result.poses;
+  std::vector<const ScoredPoints*> truth(poses.size());
+  if (evaluation.accuracy)
+    for (const FrameError& frame : evaluation.accuracy->frames)
+      truth[frame.pose] = &evaluation.truth->frames[frame.truth].points_W;
+  PointRuns runs;
+  bool in_run = false, in_true_run = false;
+  const auto add = [](bool goes_on, const ScoredPoints& points_W, auto& of_runs) {
+    if (!goes_on) of_runs.emplace_back();
+    of_runs.back().push_back(points_W);
+  };
+  for (std::size_t i = 0; i < poses.size(); ++i) {
+    const bool is_tracked = IsTracked(poses[i]);
+    if (is_tracked) add(in_run, ScoredPointsOf(poses[i].points_W), runs.tracked);
+    if (truth[i]) add(in_true_run, *truth[i], runs.true_ones);
+    in_run = is_tracked;
+    in_true_run = truth[i] != nullptr;
+  }
+  return runs;
+}
+
+void MeasureJitter(Evaluation& evaluation) {
+  const PointRuns runs = PointRunsOf(evaluation);
+  evaluation.jitter_mm = MeanThirdDifference_mm(runs.tracked);
+  evaluation.true_jitter_mm = MeanThirdDifference_mm(runs.true_ones);
 }
 
 void CountStates(Evaluation& evaluation) {
@@ -59,6 +94,7 @@ Evaluation Evaluate(Result result, std::optional<TakeTruth> truth) {
   evaluation.precision = MeasurePrecision(TrackedRuns(evaluation.result.poses), {});
   if (!evaluation.truth) {
     evaluation.certainty = MeasureCertainty(evaluation.result.poses, {});
+    MeasureJitter(evaluation);
     return evaluation;
   }
   std::vector<ScoredFrame> output;
@@ -66,6 +102,7 @@ Evaluation Evaluate(Result result, std::optional<TakeTruth> truth) {
     output.push_back({row.timestamp_ns, IsTracked(row), ScoredPointsOf(row.points_W)});
   }
   evaluation.accuracy = MeasureAccuracy(evaluation.truth->frames, output);
+  MeasureJitter(evaluation);
   evaluation.extremities =
       MeasureExtremities(evaluation.result, *evaluation.truth, evaluation.accuracy->frames);
   evaluation.certainty = MeasureCertainty(evaluation.result.poses, evaluation.accuracy);

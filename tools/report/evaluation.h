@@ -33,9 +33,11 @@ struct Evaluation {
   double mean_residual_mm = 0;         ///< Over tracked frames.
   std::optional<Precision> precision;  ///< Empty if no run of tracked frames is long enough.
   std::optional<Certainty> certainty;  ///< Empty if never tracked.
+  std::optional<double> jitter_mm;     ///< MeanThirdDifference_mm of tracked frames.
   // Only if the take has truth:
   std::optional<TakeTruth> truth;
   std::optional<Accuracy> accuracy;
+  std::optional<double> true_jitter_mm;  ///< That of the true motion in the same frames.
   ExtremityAccuracy extremities;
   std::vector<LengthPair> lengths;
 };

@@ -115,6 +115,14 @@ void AddAccuracy(const Evaluation& evaluation, Json& json) {
   json["length_error_mm"] = lengths;
 }
 
+std::string JitterText(const Evaluation& evaluation) {
+  std::string text = fmt::format("jitter      {:.1f} mm mean third difference from frame to frame",
+                                 *evaluation.jitter_mm);
+  if (evaluation.true_jitter_mm)
+    text += fmt::format("; {:.1f} mm of the true motion", *evaluation.true_jitter_mm);
+  return text + "\n";
+}
+
 }  // namespace
 
 std::string EvaluationText(const Evaluation& evaluation) {
@@ -143,6 +151,7 @@ std::string EvaluationText(const Evaluation& evaluation) {
   } else {
     text += "precision   no run of 15 tracked frames\n";
   }
+  if (evaluation.jitter_mm) text += JitterText(evaluation);
   if (evaluation.accuracy)
     return text + AccuracyText(*evaluation.accuracy) + LengthsText(evaluation) +
            ExtremityText(evaluation.extremities) + ProbabilityTextOf(evaluation.certainty);
@@ -170,6 +179,8 @@ void AddEvaluation(const Evaluation& evaluation, Json& json) {
     json["extremities"] = ExtremityJson(evaluation.extremities);
   if (evaluation.certainty) json["certainty"] = CertaintyJson(*evaluation.certainty);
   if (evaluation.precision) json["precision"] = PrecisionJson(*evaluation.precision);
+  if (evaluation.jitter_mm) json["jitter_mm"] = Rounded(*evaluation.jitter_mm, 2);
+  if (evaluation.true_jitter_mm) json["true_jitter_mm"] = Rounded(*evaluation.true_jitter_mm, 2);
 }
 
 std::string EvaluationJson(const Evaluation& evaluation, std::span<const CameraOverlap> overlaps) {
