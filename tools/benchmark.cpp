@@ -115,6 +115,11 @@ void RunBenchmark(const BenchmarkOptions& options) {
     PrintNow(EvidenceTable(evidence) + CarvingLines());
   }
   std::string noise;
+  std::string solved;
+  if (options.Wants(kSolvePart)) {
+    solved = SolveTable(RunSolve(options));
+    PrintNow(solved);
+  }
   if (options.Wants(kNoisePart)) {
     noise = NoiseTable(RunNoise(options));
     PrintNow(noise);
@@ -124,7 +129,7 @@ void RunBenchmark(const BenchmarkOptions& options) {
               AccuracyMarkdown(benchmark) + VarietyMarkdown(variety) +
                   TakesMarkdown(takes, options.FirstsOr(kTakeFirsts)) +
                   PaperMarkdown(paper, options.SecondsOr(kPaperSeconds)) +
-                  EvidenceMarkdown(evidence, options.SecondsOr(kEvidenceSeconds)) + noise);
+                  EvidenceMarkdown(evidence, options.SecondsOr(kEvidenceSeconds)) + noise + solved);
   const std::vector<ScoreRow> scores = ScoresOf(variety, takes);
   if (!scores.empty()) ReplaceText(options.out / "scores.csv", ScoreCsv(scores));
   if (!benchmark.sweeps.empty()) {
@@ -208,15 +213,16 @@ void AddBenchmarkCommand(CLI::App& app) {
   AddTakeOptions(*command, *options);
   std::vector<std::string> parts = options->parts;
   parts.insert(parts.end(), {kPeoplePart, kVarietyPart, kTakesPart, kStudioPart, kPaperPart,
-                             kEvidencePart, kNoisePart});
+                             kEvidencePart, kNoisePart, kSolvePart});
   command
       ->add_option(
           "--parts", options->parts,
           "parts to run; people (two to four at once), variety (of builds, hair, clothes "
           "and loads), takes (recorded ones), studio (number, place and pictures of the "
           "cameras), paper (its tracker, with truth in place of stages), evidence (clothes "
-          "like the wall, and lossy pictures, of 4 to 16 cameras) and noise (of the "
+          "like the wall, and lossy pictures, of 4 to 16 cameras), noise (of the "
           "evidence, at true poses of varied people, and the odds of right and wrong poses) "
+          "and solve (varied people, live and solved) "
           "run only on request")
       ->delimiter(',')
       ->check(OneOf(parts))

@@ -185,8 +185,8 @@ void AddFloor(CLI::App* parent) {
   CLI::App* command =
       parent->add_subcommand("floor", "Set floor, origin, axes and scale of a calibration");
   command->add_option("CALIBRATION", a->calibration, "input calibration.toml")->required();
-  CLI::Option* board = command->add_option("--board", a->board,
-                                           "board on the floor, as for mocap calibrate studio");
+  CLI::Option* board =
+      command->add_option("--board", a->board, "board on the floor, as for mocap calibrate studio");
   AddOutput(command, a);
   AddWorld(command, a)->needs(board);
   command->callback([a] {

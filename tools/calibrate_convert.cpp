@@ -51,8 +51,9 @@ Imported Import(const ConvertArguments& a) {
     return ImportCameras(a.from, a.in, a.options);
   } catch (const SetupError& error) {
     if (a.from != "mocap") throw;
-    throw SetupError(std::string(error.what()) + "; if another program wrote it, name the program: "
-                                                 "--from FORMAT");
+    throw SetupError(std::string(error.what()) +
+                     "; if another program wrote it, name the program: "
+                     "--from FORMAT");
   }
 }
 
@@ -61,10 +62,10 @@ void RequireSize(const ConvertArguments& a, const std::vector<CameraCalibration>
   if (!a.options.size_px) return;
   for (const CameraCalibration& camera : cameras) {
     if (std::array{camera.width_px, camera.height_px} == *a.options.size_px) continue;
-    throw SetupError(fmt::format("--size {}: {} says that the pictures of {} have {}x{}; leave "
-                                 "--size out",
-                                 a.size, a.in.string(), camera.name, camera.width_px,
-                                 camera.height_px));
+    throw SetupError(
+        fmt::format("--size {}: {} says that the pictures of {} have {}x{}; leave "
+                    "--size out",
+                    a.size, a.in.string(), camera.name, camera.width_px, camera.height_px));
   }
 }
 

@@ -12,6 +12,7 @@
 #include "tools/gait.h"
 #include "tools/gige_studio.h"
 #include "tools/simulate.h"
+#include "tools/solve.h"
 #include "tools/stream.h"
 #include "tools/take.h"
 #include "tools/track.h"
@@ -24,6 +25,7 @@ void AddCommands(CLI::App& app) {
   AddSimulateCommand(app);
   AddTakeCommand(app);
   AddTrackCommand(app);
+  AddSolveCommand(app);
   AddEvaluateCommand(app);
   AddGaitCommand(app);
   AddExportCommand(app);

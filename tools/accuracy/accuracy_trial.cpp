@@ -105,15 +105,26 @@ PipelineOptions PipelineOf(const AccuracyTrial& trial) {
 }
 
 TrialOutcome OutcomeOf(const AccuracyTrial& trial, const ResultSink& sink) {
-  TrialOutcome outcome;
-  outcome.evaluation = Evaluate(sink.result(), TruthOf(trial.studio, sink.result().poses));
+  TrialOutcome outcome = OutcomeOf(trial, sink.result());
   outcome.acquisition_frames = sink.acquisition_frames();
-  outcome.longest_loss = LongestLoss(outcome.evaluation.result.poses);
-  outcome.longest_wrong_stretch = LongestWrongStretch(*outcome.evaluation.accuracy);
   return outcome;
 }
 
 }  // namespace
+
+Studio OpenTrial(const AccuracyTrial& trial) {
+  Studio studio = OpenSimulatedStudio(trial.studio);
+  Disturb(trial, studio);
+  return studio;
+}
+
+TrialOutcome OutcomeOf(const AccuracyTrial& trial, const Result& result) {
+  TrialOutcome outcome;
+  outcome.evaluation = Evaluate(result, TruthOf(trial.studio, result.poses));
+  outcome.longest_loss = LongestLoss(outcome.evaluation.result.poses);
+  outcome.longest_wrong_stretch = LongestWrongStretch(*outcome.evaluation.accuracy);
+  return outcome;
+}
 
 TrialOutcome TrackStudio(const AccuracyTrial& trial, Studio studio, PoseSink& also) {
   ResultSink sink(KeptPeople::kFirst, false);
@@ -127,12 +138,10 @@ TrialOutcome TrackStudio(const AccuracyTrial& trial, Studio studio, PoseSink& al
 TrialOutcome RunTrial(const AccuracyTrial& trial) { return RunTrialFrom(trial, 1).front(); }
 
 std::vector<TrialOutcome> RunTrialFrom(const AccuracyTrial& trial, int firsts) {
-  Studio studio = OpenSimulatedStudio(trial.studio);
-  Disturb(trial, studio);
   FirstSinks sinks(firsts, KeptPeople::kFirst);
   PipelineOptions options = PipelineOf(trial);
   options.other_starts = sinks.others();
-  Pipeline pipeline(std::move(studio), options, LoadBodyTable(trial.body), sinks.own());
+  Pipeline pipeline(OpenTrial(trial), options, LoadBodyTable(trial.body), sinks.own());
   pipeline.Start();
   pipeline.Join();
   std::vector<TrialOutcome> outcomes;

@@ -43,6 +43,11 @@ TrialOutcome RunTrial(const AccuracyTrial& trial);
 /// @param firsts  their number.
 std::vector<TrialOutcome> RunTrialFrom(const AccuracyTrial& trial, int firsts);
 
+/// Opens the trial's studio, with its disturbances.
+Studio OpenTrial(const AccuracyTrial& trial);
+/// Compares a result of the trial's sets with the truth.
+TrialOutcome OutcomeOf(const AccuracyTrial& trial, const Result& result);
+
 /// Tracks a studio that shows the trial's people, whatever its cameras do. @param also  gets every
 /// set.
 TrialOutcome TrackStudio(const AccuracyTrial& trial, Studio studio, PoseSink& also);

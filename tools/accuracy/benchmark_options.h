@@ -27,7 +27,7 @@ inline const std::vector<double> kStatures_mm = {1150, 1550, 1950},
 /// Each takes as long as all others together or longer, so they run only on request.
 inline const std::string kPeoplePart = "people", kVarietyPart = "variety", kStudioPart = "studio",
                          kPaperPart = "paper", kEvidencePart = "evidence", kTakesPart = "takes",
-                         kNoisePart = "noise";
+                         kNoisePart = "noise", kSolvePart = "solve";
 
 struct BenchmarkOptions {
   std::filesystem::path out;

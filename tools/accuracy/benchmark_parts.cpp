@@ -68,6 +68,13 @@ AccuracySweep RunSweep(const SweepPlan& plan, const TakeGrid& grid) {
   return sweep;
 }
 
+/// The first way of filming that is wanted.
+Filming FilmingOf(const BenchmarkOptions& options) {
+  const std::vector<Filming> all = Filmings();
+  return *std::ranges::find_if(
+      all, [&](const Filming& filming) { return options.IsFilmed(filming.label); });
+}
+
 }  // namespace
 
 void PrintNow(const std::string& text) {
@@ -178,6 +185,18 @@ std::vector<VarietyGrid> RunVariety(const BenchmarkOptions& options) {
     PrintNow(VarietySummaryText(grid.rows) + ExtremityText(MeanExtremities(grid)));
   }
   return grids;
+}
+
+std::vector<SolveRow> RunSolve(const BenchmarkOptions& options) {
+  const Filming filming = FilmingOf(options);
+  std::vector<SolveRow> rows;
+  PrintNow(SolveHeader());
+  for (int i = 0; i < options.SeedsOr(kNoisePeople); ++i) {
+    rows.push_back(
+        RunSolveTrial(VarietyTrialOf(options.from + i, options.SecondsOr(kNoiseSeconds), filming)));
+    PrintNow(SolveLine(rows.back()));
+  }
+  return rows;
 }
 
 std::vector<ScoredTakes> RunTakes(const BenchmarkOptions& options,

@@ -9,6 +9,7 @@
 #include "tools/accuracy/evidence_trial.h"
 #include "tools/accuracy/noise_trial.h"
 #include "tools/accuracy/paper_trial.h"
+#include "tools/accuracy/solve_trial.h"
 #include "tools/accuracy/takes_trial.h"
 #include "tools/accuracy/variety_trial.h"
 
@@ -24,6 +25,8 @@ std::vector<AccuracySweep> RunSweeps(const BenchmarkOptions& options);
 AccuracySweep RunStudios(const BenchmarkOptions& options);
 std::vector<PeopleRow> RunPeople(const BenchmarkOptions& options);
 std::vector<VarietyGrid> RunVariety(const BenchmarkOptions& options);
+/// Tracks varied people live, and solves the same sets.
+std::vector<SolveRow> RunSolve(const BenchmarkOptions& options);
 std::vector<PaperRow> RunPaper(const BenchmarkOptions& options);
 std::vector<EvidenceRow> RunEvidence(const BenchmarkOptions& options);
 /// Measures the noise of the evidence at the true poses of varied people.

@@ -127,6 +127,7 @@ std::string Parameters(const C3dLayout& layout, int data_block) {
   parameters.Text("COMPANY", "mocapd");
   parameters.Text("SOFTWARE", "mocapd");
   parameters.Text("VERSION_LABEL", MOCAP_VERSION);
+  if (!layout.filter.empty()) parameters.Text("FILTER", layout.filter);
   return parameters.Section();
 }
 

@@ -25,6 +25,7 @@ struct C3dLayout {
   std::vector<C3dEvent> events;
   std::int64_t frames = 0;
   double rate_hz = 0;
+  std::string filter = {};  ///< As in Result; empty: none is known.
 };
 
 /// Unit of residuals [mm]; negative: the data are floats.

@@ -89,6 +89,7 @@ C3dLayout LayoutOf(const ExportScene& scene) {
       layout.angle_labels.push_back(layout.labels.back());
     }
   }
+  layout.filter = scene.subjects.front().result.filter.value_or("");
   return layout;
 }
 

@@ -164,6 +164,7 @@ ExportRemarks WriteGlb(const ExportScene& scene, std::ostream& out) {
   Json file = {
       {"asset", {{"version", "2.0"}, {"generator", std::string("mocapd ") + MOCAP_VERSION}}},
       {"scene", 0}};
+  if (subject.result.filter) file["asset"]["extras"] = {{"filter", *subject.result.filter}};
   file["scenes"] = Json::array({{{"nodes", {0, kSkeletonJointCount}}}});
   file["nodes"] = Nodes(motion, rest);
   file["nodes"].push_back({{"name", name}, {"mesh", 0}, {"skin", 0}});

@@ -7,6 +7,7 @@
 #include <array>
 #include <cmath>
 #include <iterator>
+#include <optional>
 #include <ostream>
 #include <span>
 #include <string_view>
@@ -55,13 +56,14 @@ MotValues ValuesOf(const BodyAngles& angles) {
   return values;
 }
 
-std::string MotHeader(std::size_t rows) {
+std::string MotHeader(std::size_t rows, const std::optional<std::string>& filter) {
   return fmt::format(
       "Coordinates\nversion=1\nnRows={}\nnColumns={}\ninDegrees=yes\n\n"
       "Units are S.I. units (second, meters, Newtons, ...)\n"
       "If the header above contains a line with 'inDegrees', this indicates whether rotational "
-      "values are in degrees (yes) or radians (no).\n\nendheader\ntime\t{}\n",
-      rows, 1 + kModelCoordinates.size(), fmt::join(kModelCoordinates, "\t"));
+      "values are in degrees (yes) or radians (no).\n{}\nendheader\ntime\t{}\n",
+      rows, 1 + kModelCoordinates.size(), filter ? "Filter: " + *filter + "\n" : "",
+      fmt::join(kModelCoordinates, "\t"));
 }
 
 std::string MotRow(const MotValues& values, double time_s) {
@@ -115,7 +117,7 @@ ExportRemarks WriteMot(const ExportScene& scene, std::ostream& out) {
   std::ranges::transform(frames, std::back_inserter(rows), ValuesOf);
   const std::int64_t first_ns = scene.moments.front().timestamp_ns;
   const FilledIn filled = FillIn(rows);
-  out << MotHeader(rows.size());
+  out << MotHeader(rows.size(), result.filter);
   for (std::size_t i = 0; i < rows.size(); ++i)
     out << MotRow(rows[i], 1e-9 * static_cast<double>(frames[i].time_ns - first_ns));
   ExportRemarks remarks = {

@@ -38,7 +38,8 @@ class RowReader {
 
 CaptureState ReadState(RowReader& row) {
   const auto state = std::ranges::find(kCaptureStateNames, row.Text());
-  if (state == kCaptureStateNames.end()) row.Fail("searching, acquiring, tracking, lost or bridged");
+  if (state == kCaptureStateNames.end())
+    row.Fail("searching, acquiring, tracking, lost or bridged");
   row.Skip(1);
   return static_cast<CaptureState>(state - kCaptureStateNames.begin());
 }

@@ -81,6 +81,12 @@ std::optional<TakeMark> ReadMark(TomlSection& root) {
   return TakeMark{take->Text("name"), take->Text("calibration_fnv1a")};
 }
 
+std::optional<std::string> ReadFilter(TomlSection& root) {
+  std::optional<TomlSection> solve = root.Section("solve");
+  if (!solve) return {};
+  return solve->Text("filter");
+}
+
 bool IsOfOne(const std::filesystem::path& folder) { return IsThere(folder / "poses.csv"); }
 
 /// A take of several people has folders of the same names.
@@ -163,6 +169,7 @@ Result ReadResult(const std::filesystem::path& folder_or_log,
   TomlSection body = TomlSection::ReadFile(folder_or_log / "body.toml");
   result.body = ReadBody(body);
   result.take = ReadMark(body);
+  result.filter = ReadFilter(body);
   result.poses = ReadPoses(folder_or_log / "poses.csv", result.body, result.remarks);
   return result;
 }

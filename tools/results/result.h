@@ -68,6 +68,8 @@ struct Result {
   /// What could not be read, such as damage of a log, one line each.
   std::vector<std::string> remarks = {};
   std::optional<TakeMark> take = {};  ///< Not known of logs.
+  /// Of a solved take: its filter, such as butterworth:4:6, or none. Empty: tracked as live.
+  std::optional<std::string> filter = {};
 };
 
 /// Makes the row of a frame set.

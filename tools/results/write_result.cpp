@@ -55,7 +55,9 @@ std::string JointsToml(const BodyRecord& body) {
   return "\n[joints]\nnames = [" + names + "]\ncolumns = [" + columns + "]\n";
 }
 
-std::string BodyToml(const BodyRecord& body, const std::optional<TakeMark>& take) {
+std::string BodyToml(const Result& result) {
+  const BodyRecord& body = result.body;
+  const std::optional<TakeMark>& take = result.take;
   std::string text = "model = " + TomlText(body.model) + "\n";
   text += "stature_mm = " + FixedText(body.stature_mm, 1);
   const auto append_table = [&](const char* name, const auto& fields) {
@@ -67,9 +69,11 @@ std::string BodyToml(const BodyRecord& body, const std::optional<TakeMark>& take
   append_table("lengths", kLengths);
   append_table("sizes", kBodySizeFields);
   text += '\n' + JointsToml(body);
-  if (!take) return text;
-  return text + "\n[take]\nname = " + TomlText(take->name) +
-         "\ncalibration_fnv1a = " + TomlText(take->calibration) + '\n';
+  if (take)
+    text += "\n[take]\nname = " + TomlText(take->name) +
+            "\ncalibration_fnv1a = " + TomlText(take->calibration) + '\n';
+  if (result.filter) text += "\n[solve]\nfilter = " + TomlText(*result.filter) + '\n';
+  return text;
 }
 
 const std::string kTracked =
@@ -172,7 +176,7 @@ void WriteResult(const std::filesystem::path& folder, const Result& result) {
   MakeFolder(folder);
   RemovePeople(folder);
   ReplaceText(folder / "poses.csv", PosesCsv(result));
-  ReplaceText(folder / "body.toml", BodyToml(result.body, result.take));
+  ReplaceText(folder / "body.toml", BodyToml(result));
 }
 
 void WritePeople(const std::filesystem::path& folder, const std::map<int, Result>& people) {

@@ -1,0 +1,57 @@
+#include "core/solving/person_evidence.h"
+
+#include "core/reconstruction/carving/voxel_block.h"
+
+namespace mocap {
+
+void PersonEvidence::PoseOthers(int set) {
+  posed_.clear();
+  for (std::size_t i = 0; i < everybody_.size(); ++i) {
+    const PoseState* const pose = i == person_ ? nullptr : everybody_[i].At(set);
+    if (pose) PosePerson(everybody_[i].body, *pose, kReachMm, posed_.emplace_back());
+  }
+}
+
+const Evidence& PersonEvidence::In(const RecordedSet& recorded, int set, const PoseState* pose) {
+  PoseOthers(set);
+  const bool is_alone = posed_.empty();
+  if (pose) PosePerson(track().body, *pose, kReachMm, posed_.emplace_back());
+  thinned_.resize(recorded.outlines.size());
+  for (std::size_t i = 0; i < thinned_.size(); ++i)
+    ThinOutline(recorded.outlines[i], is_alone ? fineness_ : 1, thinned_[i]);
+  if (is_alone) {
+    GatherAlone(recorded, pose);
+  } else {
+    GatherShare(recorded, pose != nullptr);
+  }
+  return evidence_;
+}
+
+void PersonEvidence::GatherAlone(const RecordedSet& recorded, const PoseState* pose) {
+  Observation room(recorded.grid, thinned_, recorded.person_box_W);
+  room.doubtful = recorded.doubtful;
+  const VoxelGrid& believed = pose ? BelieveWithin(posed_, room, believed_) : recorded.grid;
+  evidence_.Gather(
+      {VoxelsWithin(believed, room.box_W, flesh_of_one_), thinned_, recorded.person_box_W});
+}
+
+void PersonEvidence::GatherShare(const RecordedSet& recorded, bool is_known) {
+  Observation room(recorded.grid, thinned_, recorded.person_box_W);
+  room.doubtful = recorded.doubtful;
+  flesh_.Divide(BelieveWithin(posed_, room, believed_), posed_);
+  outlines_.Divide(thinned_, posed_, flesh_);
+  // The person comes after all others, and so does the largest stranger.
+  const std::size_t place = is_known ? posed_.size() - 1 : posed_.size();
+  if (place >= flesh_.shares().size()) {
+    evidence_.Gather({VoxelGrid(), {}});
+    return;
+  }
+  const FleshShare& flesh = flesh_.shares()[place];
+  const OutlineShare& outlines = outlines_.shares()[place];
+  const Eigen::AlignedBox3d box_W =
+      is_known ? DownToFloor(posed_.back().box_W, kAsideMm - kReachMm).merged(flesh.box_W)
+               : AroundStranger(flesh.box_W);
+  evidence_.Gather({flesh.flesh, outlines.own, box_W, flesh.room, outlines.near});
+}
+
+}  // namespace mocap

@@ -1,0 +1,46 @@
+// What a set shows of one of the people of a take.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "core/evidence/evidence.h"
+#include "core/people/flesh_division.h"
+#include "core/people/outline_division.h"
+#include "core/people/posed_person.h"
+#include "core/solving/person_track.h"
+#include "core/solving/recorded_set.h"
+
+namespace mocap {
+
+/// Divides sets as PeopleCapture does, but by where everybody else is known to have been. Reuses
+/// its memory.
+class PersonEvidence {
+ public:
+  /// @param everybody  tracks of all people of the take; borrowed.
+  /// @param fineness   as in PeopleOptions.
+  PersonEvidence(std::span<const PersonTrack> everybody, std::size_t person, int fineness)
+      : everybody_(everybody), person_(person), fineness_(fineness) {}
+
+  const PersonTrack& track() const { return everybody_[person_]; }
+  /// Gathers what a set shows of the person; valid until the next call.
+  /// @param pose  of the person; null: not known, and all that is nobody else's counts.
+  const Evidence& In(const RecordedSet& recorded, int set, const PoseState* pose);
+
+ private:
+  void PoseOthers(int set);
+  void GatherAlone(const RecordedSet& recorded, const PoseState* pose);
+  void GatherShare(const RecordedSet& recorded, bool is_known);
+
+  std::span<const PersonTrack> everybody_;
+  std::size_t person_;
+  int fineness_;
+  std::vector<PosedPerson> posed_;  ///< The others, then the person if the pose is known.
+  VoxelGrid believed_, flesh_of_one_;
+  std::vector<Outline> thinned_;
+  FleshDivision flesh_;
+  OutlineDivision outlines_;
+  Evidence evidence_;
+};
+
+}  // namespace mocap
