@@ -181,6 +181,11 @@ bool TomlSection::IsTable(const std::string& key) {
   return node != nullptr && node->is_table();
 }
 
+bool TomlSection::IsArray(const std::string& key) {
+  const toml::node* node = Find(key);
+  return node != nullptr && node->is_array();
+}
+
 std::vector<int> TomlSection::Integers(const std::string& key, int min, int max) {
   if (!Has(key)) return {};
   const std::string wanted =

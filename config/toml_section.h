@@ -58,6 +58,7 @@ class TomlSection {
   Vector3 Vector(const std::string& key);
   Matrix3 Matrix(const std::string& key);
   bool IsTable(const std::string& key);
+  bool IsArray(const std::string& key);
   /// A table in this one; empty if missing.
   std::optional<TomlSection> Section(const std::string& key);
   /// A table that must exist. @param wanted  what it is, for messages.

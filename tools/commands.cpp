@@ -5,6 +5,7 @@
 #include "tools/benchmark.h"
 #include "tools/calibrate.h"
 #include "tools/cameras.h"
+#include "tools/compare.h"
 #include "tools/control.h"
 #include "tools/doctor.h"
 #include "tools/evaluate.h"
@@ -27,6 +28,7 @@ void AddCommands(CLI::App& app) {
   AddTrackCommand(app);
   AddSolveCommand(app);
   AddEvaluateCommand(app);
+  AddCompareCommand(app);
   AddGaitCommand(app);
   AddExportCommand(app);
   AddBenchmarkCommand(app);

@@ -27,7 +27,7 @@ struct GaitArguments {
   bool json = false;
 };
 
-void Print(const std::string& text) { std::fputs(text.c_str(), stdout); }
+void PrintText(const std::string& text) { std::fputs(text.c_str(), stdout); }
 
 void WriteReport(const GaitArguments& arguments, const PeopleGaits& people) {
   if (arguments.report.empty()) return;
@@ -57,7 +57,7 @@ void RunForPeople(const GaitArguments& arguments) {
     text += (text.empty() ? "" : "\n") + Printable(name) + ": " + GaitText(gait);
   }
   WriteReport(arguments, people);
-  Print(arguments.json ? JsonText({{"people", json}}) + '\n' : text);
+  PrintText(arguments.json ? JsonText({{"people", json}}) + '\n' : text);
 }
 
 void RunGait(const GaitArguments& arguments) {
@@ -66,7 +66,7 @@ void RunGait(const GaitArguments& arguments) {
   const GaitAnalysis gait =
       Analyse(ReadResult(arguments.result, arguments.prefix), arguments.result, arguments.out);
   WriteReport(arguments, {{"", gait}});
-  Print(arguments.json ? JsonText(GaitJson(gait)) + '\n' : GaitText(gait));
+  PrintText(arguments.json ? JsonText(GaitJson(gait)) + '\n' : GaitText(gait));
 }
 
 }  // namespace
