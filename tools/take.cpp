@@ -9,6 +9,7 @@
 
 #include "drivers/printable_text.h"
 #include "tools/stop_on_signals.h"
+#include "tools/take_import.h"
 #include "tools/take_join.h"
 
 namespace mocap {
@@ -40,6 +41,7 @@ void AddTakeCommand(CLI::App& app) {
       ->expected(2, -1);
   join->add_option("--out", options->out, "output take folder")->required();
   join->callback([options] { Join(*options); });
+  AddTakeImportCommand(take);
 }
 
 }  // namespace mocap

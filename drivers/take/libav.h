@@ -8,6 +8,7 @@ extern "C" {
 #include <libswscale/swscale.h>
 }
 
+#include <filesystem>
 #include <memory>
 
 namespace mocap {
@@ -36,5 +37,8 @@ using PacketPtr = std::unique_ptr<AVPacket, LibavDeleter>;
 using ScalerPtr = std::unique_ptr<SwsContext, LibavDeleter>;
 using InputPtr = std::unique_ptr<AVFormatContext, InputCloser>;
 using OutputPtr = std::unique_ptr<AVFormatContext, OutputCloser>;
+
+/// Opens a media file, whatever its name says. @throws SetupError  naming it.
+InputPtr OpenInput(const std::filesystem::path& file);
 
 }  // namespace mocap

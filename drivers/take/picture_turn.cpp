@@ -1,5 +1,7 @@
 #include "drivers/take/picture_turn.h"
 
+#include <algorithm>
+#include <charconv>
 #include <cmath>
 #include <cstdlib>
 
@@ -17,7 +19,25 @@ std::optional<int> Whole(std::int32_t number) {
   return static_cast<int>(std::lround(value));
 }
 
+/// By quarters to the right.
+constexpr std::array<PictureTurn, 4> kQuarterTurns = {
+    {{}, {0, 1, -1, 0}, {-1, 0, 0, -1}, {0, -1, 1, 0}}};
+
 }  // namespace
+
+std::optional<std::string> TurnInDegrees(const PictureTurn& turn) {
+  const auto found = std::ranges::find(kQuarterTurns, turn);
+  if (found == kQuarterTurns.end()) return std::nullopt;
+  return std::to_string(90 * (found - kQuarterTurns.begin()));
+}
+
+std::optional<PictureTurn> TurnFromDegrees(std::string_view text) {
+  int degrees = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), degrees);
+  const bool is_number = error == std::errc() && end == text.data() + text.size();
+  if (!is_number || degrees % 90 != 0) return std::nullopt;
+  return kQuarterTurns[static_cast<std::size_t>((degrees / 90 % 4 + 4) % 4)];
+}
 
 std::string PictureTurn::Text() const {
   if (IsNone()) return "not turned";

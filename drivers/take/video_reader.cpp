@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "core/errors.h"
-#include "drivers/take/input_file.h"
+#include "drivers/quoted.h"
 #include "drivers/take/libav.h"
 
 namespace mocap {
@@ -18,6 +18,9 @@ namespace {
 // swscale's vector code may write past the end of a row.
 constexpr int kRowAlignment_px = 64;
 constexpr int kLargestSide_px = 16384;
+
+/// Telephones write a key frame every second or so.
+constexpr std::int64_t kSoon_s = 3;
 
 /// No frame in an otherwise valid video.
 class NoFrame : public SetupError {
@@ -28,25 +31,6 @@ class NoFrame : public SetupError {
 
 [[noreturn]] void Fail(const std::filesystem::path& file, const std::string& what) {
   throw SetupError(file.string() + ": " + what);
-}
-
-InputPtr OpenInput(const std::filesystem::path& file) {
-  RequireFile(file, "a video file");
-  std::error_code error;
-  if (std::filesystem::file_size(file, error) == 0 && !error) {
-    Fail(file, "is empty; expected a Matroska file");
-  }
-  AVFormatContext* raw = nullptr;
-  AVDictionary* options = nullptr;
-  // Without a whitelist, a disguised playlist could access the network.
-  av_dict_set(&options, "protocol_whitelist", "file", 0);
-  const int result =
-      avformat_open_input(&raw, ("file:" + file.string()).c_str(), nullptr, &options);
-  av_dict_free(&options);
-  if (result < 0) Fail(file, "is not a video that FFmpeg knows; expected a Matroska file");
-  InputPtr input(raw);
-  input->flags |= AVFMT_FLAG_DISCARD_CORRUPT;
-  return input;
 }
 
 CodecPtr OpenDecoder(const std::filesystem::path& file, const AVStream& stream,
@@ -97,6 +81,7 @@ class VideoReader::Impl {
     input_ended_ = false;
     width_px_ = height_px_ = 0;
     next_ = 0;
+    counts_ = true;
     frame_waits_ = DecodeFirst();
     if (!frame_waits_) throw NoFrame(file_);
     width_px_ = frame_->width;
@@ -112,7 +97,7 @@ class VideoReader::Impl {
     const bool is_decoded = std::exchange(frame_waits_, false);
     const VideoStatus status = is_decoded ? VideoStatus::kFrame : Decode();
     if (status == VideoStatus::kEnd) return status;
-    const bool is_first = next_ == 0;
+    const bool is_first = counts_ && next_ == 0;
     if (status == VideoStatus::kBroken) {
       Count(AV_NOPTS_VALUE);
       return status;
@@ -155,7 +140,7 @@ class VideoReader::Impl {
       next_kept_ = std::min(frame, kept_.size());
       return frame < kept_.size();
     }
-    if (frame >= times_.size() || times_[frame] == AV_NOPTS_VALUE ||
+    if (!counts_ || frame >= times_.size() || times_[frame] == AV_NOPTS_VALUE ||
         std::ranges::count(times_, times_[frame]) != 1 ||
         av_seek_frame(input_.get(), stream_, times_[frame], AVSEEK_FLAG_BACKWARD) < 0) {
       return false;
@@ -170,6 +155,25 @@ class VideoReader::Impl {
     }
     frame_waits_ = status == VideoStatus::kFrame && frame_->best_effort_timestamp == times_[frame];
     next_ = frame;
+    return frame_waits_;
+  }
+
+  bool GoTo(std::int64_t time_ns) {
+    if (!kept_.empty()) return false;
+    const AVRational unit = input_->streams[stream_]->time_base;
+    const std::int64_t pts = av_rescale_q(time_ns, {1, 1'000'000'000}, unit);
+    counts_ = false;
+    if (!IsSoonAfter(pts) && av_seek_frame(input_.get(), stream_, pts, AVSEEK_FLAG_BACKWARD) >= 0) {
+      avcodec_flush_buffers(decoder_.get());
+      passed_.clear();
+      frame_waits_ = input_ended_ = false;
+    }
+    VideoStatus status = frame_waits_ ? VideoStatus::kFrame : Decode();
+    while (status == VideoStatus::kBroken ||
+           (status == VideoStatus::kFrame && frame_->best_effort_timestamp < pts)) {
+      status = Decode();
+    }
+    frame_waits_ = status == VideoStatus::kFrame;
     return frame_waits_;
   }
 
@@ -200,7 +204,15 @@ class VideoReader::Impl {
            (frame_->flags & AV_FRAME_FLAG_CORRUPT) == 0 && frame_->decode_error_flags == 0;
   }
 
+  // Whether decoding up to a frame is less work than searching it.
+  bool IsSoonAfter(std::int64_t pts) const {
+    const std::int64_t now = frame_->best_effort_timestamp;
+    return now != AV_NOPTS_VALUE && pts >= now &&
+           av_rescale_q(pts - now, input_->streams[stream_]->time_base, {1, 1}) < kSoon_s;
+  }
+
   void Count(std::int64_t pts) {
+    if (!counts_) return;
     if (next_ == times_.size()) times_.push_back(pts);
     ++next_;
   }
@@ -211,7 +223,7 @@ class VideoReader::Impl {
     time_ns_ = av_rescale_q(pts, input_->streams[stream_]->time_base, {1, 1'000'000'000});
   }
 
-  // The first frame's rotation takes precedence over the file's.
+  // The first frame's rotation takes precedence over the file's. Matroska has only a tag.
   PictureTurn TurnOf(const AVStream& stream) const {
     std::array<std::int32_t, 9> matrix{};
     std::size_t size = 0;
@@ -221,13 +233,23 @@ class VideoReader::Impl {
       data = of_frame->data;
       size = of_frame->size;
     }
-    if (data == nullptr || size < sizeof(matrix)) return {};
+    if (data == nullptr || size < sizeof(matrix)) return TurnOfTag(stream);
     std::memcpy(matrix.data(), data, sizeof(matrix));
     const std::optional<PictureTurn> turn = TurnFromDisplayMatrix(matrix);
     if (!turn)
       Fail(file_,
            "has a display rotation that is not a multiple of 90 degrees; record it without a "
            "rotation");
+    return *turn;
+  }
+
+  PictureTurn TurnOfTag(const AVStream& stream) const {
+    const AVDictionaryEntry* tag = av_dict_get(stream.metadata, kTurnTag, nullptr, 0);
+    if (tag == nullptr) return {};
+    const std::optional<PictureTurn> turn = TurnFromDegrees(tag->value);
+    if (!turn)
+      Fail(file_, "has the tag " + std::string(kTurnTag) + " = " + Quoted(tag->value) +
+                      "; expected a multiple of 90 degrees");
     return *turn;
   }
 
@@ -316,6 +338,7 @@ class VideoReader::Impl {
   int row_px_ = 0;
   bool input_ended_ = false;
   bool frame_waits_ = false;         // The next frame is decoded already.
+  bool counts_ = true;               // Whether next_ is known.
   std::size_t next_ = 0;             // Number of the next frame.
   std::vector<std::int64_t> times_;  // Of each frame so far, in the stream's units.
   bool passes_undecoded_ = false;
@@ -341,6 +364,7 @@ VideoStatus VideoReader::Read(ImageView<const Bgr>& image) { return impl_->Read(
 VideoStatus VideoReader::Skip() { return impl_->Skip(); }
 void VideoReader::KeepInMemory() { impl_->KeepInMemory(); }
 bool VideoReader::ReturnTo(std::size_t frame) { return impl_->ReturnTo(frame); }
+bool VideoReader::GoTo(std::int64_t time_ns) { return impl_->GoTo(time_ns); }
 void VideoReader::Rewind() { impl_->Rewind(); }
 
 bool HoldsNoFrame(const std::filesystem::path& file) {

@@ -51,6 +51,10 @@ class VideoReader {
   /// @param frame  number of frames before it.
   /// @return  false: the video's times do not tell where it is. Rewind to go on.
   bool ReturnTo(std::size_t frame);
+  /// Goes to the first frame at or after a time, so that it is next. What lies far before it is not
+  /// decoded. ReturnTo works no more until Rewind.
+  /// @return  false: there is none.
+  bool GoTo(std::int64_t time_ns);
   /// Goes back to the start. @throws SetupError  when the file can no longer be opened.
   void Rewind();
 

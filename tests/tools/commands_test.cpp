@@ -83,7 +83,8 @@ TEST(Commands, AMisspeltWordIsToldWithTheOneThatItResembles) {
                                "Expected one of simulate, take"),
                     EndsWith("see mocap --help\n")));
   EXPECT_THAT(SaidOf({"mocap", "take", "jion"}),
-              StartsWith("mocap: there is no command \"jion\"; did you mean join? See"));
+              StartsWith("mocap: there is no command \"jion\"; did you mean join? Expected one of "
+                         "join, import; see"));
   EXPECT_EQ(
       SaidOf({"mocap", "track", "--voxle", "3"}),
       "mocap: there is no option --voxle; did you mean --voxel-size? See mocap track --help\n");

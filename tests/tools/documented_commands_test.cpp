@@ -46,6 +46,12 @@ constexpr std::array kUnrun = {
     Unrun{"mocap calibrate health", "needs a calibration that a person made"},
     Unrun{"mocap calibrate refine", "needs a calibration that a person made"},
     Unrun{"mocap simulate --board", "is of use to `mocap calibrate` only"},
+    Unrun{"mocap calibrate intrinsics carried", "needs videos of phones"},
+    Unrun{"mocap calibrate extrinsics lying", "needs videos of phones"},
+    Unrun{"mocap take import", "needs videos of phones"},
+    Unrun{"mocap track phones", "needs videos of phones"},
+    Unrun{"mocap export filmed", "needs videos of phones"},
+    Unrun{"mocap gait filmed", "needs videos of phones"},
     Unrun{"mocap export session.lcm", "needs a log of a daemon"},
 };
 

@@ -86,5 +86,21 @@ TEST(PictureTurn, AVideoToBeShownAskewIsRefusedByName) {
   EXPECT_TRUE(VideoReader(file).turn().IsNone());
 }
 
+TEST(PictureTurn, IsRestoredFromItsTag) {
+  for (const char* degrees : {"0", "90", "180", "270"}) {
+    const auto turn = TurnFromDegrees(degrees);
+    ASSERT_TRUE(turn) << degrees;
+    EXPECT_EQ(TurnInDegrees(*turn), degrees);
+  }
+  EXPECT_EQ(TurnFromDegrees("90")->Text(), "turned right by 90 degrees");
+  EXPECT_EQ(TurnFromDegrees("-90"), TurnFromDegrees("270"));
+  EXPECT_EQ(TurnFromDegrees("450"), TurnFromDegrees("90"));
+  EXPECT_FALSE(TurnFromDegrees("45"));
+  EXPECT_FALSE(TurnFromDegrees("90 degrees"));
+  EXPECT_FALSE(TurnFromDegrees("99999999999999999999"));
+  EXPECT_FALSE(TurnFromDegrees(""));
+  EXPECT_FALSE(TurnInDegrees(PictureTurn{-1, 0, 0, 1}));
+}
+
 }  // namespace
 }  // namespace mocap
