@@ -44,7 +44,7 @@ class SurfaceCapture : public MotionCapture {
     const std::int64_t passed_ns = last_ns_ ? std::max<std::int64_t>(0, capture_ns - *last_ns_) : 0;
     const double dt_s = static_cast<double>(passed_ns) * 1e-9;
     last_ns_ = capture_ns;
-    evidence_.Gather(observation);
+    Gather(observation, dt_s);
     if (observer) observer->OnStageEnd(UpdateStage::kLabel);
     result_.body_changed = false;
     result_.voxels = evidence_.cloud.size();
@@ -75,6 +75,18 @@ class SurfaceCapture : public MotionCapture {
   int acquisition_frames() const override { return acquisition_frames_; }
 
  private:
+  void Gather(const Observation& observation, double dt_s) {
+    if (hypotheses_.empty()) {
+      evidence_.Gather(observation);
+      return;
+    }
+    const Hypothesis& best = hypotheses_.best();
+    const PersonMotion motion{best.body, [&](double after_s) {
+                                return best.filter.PredictedPose(std::max(0.0, dt_s + after_s));
+                              }};
+    evidence_.Gather(observation, &motion);
+  }
+
   void StartOver(const std::optional<BodySizes>& given) {
     given_ = given;
     GiveUp();

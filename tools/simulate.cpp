@@ -78,6 +78,8 @@ TakeDescription Describe(const SimulateOptions& options,
     if (options.studio.soft_shadows) description.notes.emplace_back("shadows", "soft");
     if (options.studio.misled_share > 0)
       description.notes.emplace_back("misled", Text(options.studio.misled_share));
+    if (options.studio.apart_s > 0)
+      description.notes.emplace_back("apart_s", Text(options.studio.apart_s));
     if (options.studio.crf)
       description.notes.emplace_back("crf", std::to_string(*options.studio.crf));
   }
@@ -261,6 +263,12 @@ void AddEvidenceOptions(CLI::App& command, CLI::Option& board, SimulatedStudioOp
       .add_option("--misled", studio.misled_share,
                   "share of the cameras that are misled, rounded up: to each, either shirts or "
                   "trousers look exactly like the empty room")
+      ->check(NumberFrom(0, 1))
+      ->excludes(&board);
+  command
+      .add_option("--apart", studio.apart_s,
+                  "take the pictures of a set up to this far apart, as cameras without a trigger "
+                  "do: at most half a period [s]")
       ->check(NumberFrom(0, 1))
       ->excludes(&board);
   command

@@ -35,7 +35,8 @@ BoundingEdge EdgeOf(const GrazingRay& ray, const LineRange& range) {
   return {{ray.eye_W + range.from_mm * ray.direction_W, ray.eye_W + range.to_mm * ray.direction_W,
            ray.outward_W},
           false,
-          ray.rank};
+          ray.rank,
+          ray.after_s};
 }
 
 double ShareOf(int part, int all) { return static_cast<double>(part) / std::max(1, all); }

@@ -16,6 +16,7 @@ struct BoundingEdge : OrientedSegment {
   /// The ray misses the hull: another camera did not see what it grazes, so it was carved away.
   bool misses_hull = false;
   SpreadRank rank = 0;  ///< Of the ray.
+  double after_s = 0;   ///< Likewise.
 };
 
 /// Cuts rays to bounding edges. Reuses its memory.

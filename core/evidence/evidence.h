@@ -7,6 +7,7 @@
 
 #include "core/evidence/bounding_edges.h"
 #include "core/evidence/feet.h"
+#include "core/evidence/ray_motion.h"
 #include "core/motion_capture.h"
 #include "core/reconstruction/carving/voxel_cloud.h"
 
@@ -29,11 +30,15 @@ struct Evidence {
   std::optional<Vector3> toes_W;  ///< Where the feet point; see FeetFinder.
   BoundingEdgeFinder edge_finder;
   FeetFinder feet_finder;
+  RayMotion ray_motion;
 
-  void Gather(const Observation& observation) {
+  /// Gathers what a set shows.
+  /// @param motion  of the person; null: not known.
+  void Gather(const Observation& observation, const PersonMotion* motion = nullptr) {
     cloud.Build(observation.flesh, observation.room);
     borders.assign(observation.borders.begin(), observation.borders.end());
     edge_finder.Find(cloud, observation.outlines, observation.box_W, edges);
+    if (motion) ray_motion.BringToSet(*motion, edges, borders);
     toes_W = feet_finder.ToesBeforeShins(cloud);
   }
 

@@ -3,6 +3,12 @@
 #include "core/reconstruction/carving/voxel_block.h"
 
 namespace mocap {
+namespace {
+
+// Poses farther apart do not show how somebody moved between them.
+constexpr double kLongestStep_s = 0.25;
+
+}  // namespace
 
 void PersonEvidence::PoseOthers(int set) {
   posed_.clear();
@@ -20,22 +26,46 @@ const Evidence& PersonEvidence::In(const RecordedSet& recorded, int set, const P
   for (std::size_t i = 0; i < thinned_.size(); ++i)
     ThinOutline(recorded.outlines[i], is_alone ? fineness_ : 1, thinned_[i]);
   if (is_alone) {
-    GatherAlone(recorded, pose);
+    GatherAlone(recorded, set, pose);
   } else {
-    GatherShare(recorded, pose != nullptr);
+    GatherShare(recorded, set, pose);
   }
   return evidence_;
 }
 
-void PersonEvidence::GatherAlone(const RecordedSet& recorded, const PoseState* pose) {
+std::optional<PoseStep> PersonEvidence::RateAt(int set) const {
+  const int before = track().At(set - 1) ? set - 1 : set,
+            after = track().At(set + 1) ? set + 1 : set;
+  if (before == after || !track().At(before) || !track().At(after)) return std::nullopt;
+  const double between_s = TimeBetween_s(sets_, before, after);
+  if (between_s <= 0 || between_s > kLongestStep_s) return std::nullopt;
+  return track().At(after)->Minus(*track().At(before)) / between_s;
+}
+
+void PersonEvidence::Gather(const Observation& observation, int set, const PoseState* pose) {
+  const auto rate = pose ? RateAt(set) : std::nullopt;
+  if (!rate) {
+    evidence_.Gather(observation);
+    return;
+  }
+  const PersonMotion motion{track().body, [&](double after_s) {
+                              PoseState then = *pose;
+                              then.Add(*rate * after_s);
+                              return then;
+                            }};
+  evidence_.Gather(observation, &motion);
+}
+
+void PersonEvidence::GatherAlone(const RecordedSet& recorded, int set, const PoseState* pose) {
   Observation room(recorded.grid, thinned_, recorded.person_box_W);
   room.doubtful = recorded.doubtful;
   const VoxelGrid& believed = pose ? BelieveWithin(posed_, room, believed_) : recorded.grid;
-  evidence_.Gather(
-      {VoxelsWithin(believed, room.box_W, flesh_of_one_), thinned_, recorded.person_box_W});
+  Gather({VoxelsWithin(believed, room.box_W, flesh_of_one_), thinned_, recorded.person_box_W}, set,
+         pose);
 }
 
-void PersonEvidence::GatherShare(const RecordedSet& recorded, bool is_known) {
+void PersonEvidence::GatherShare(const RecordedSet& recorded, int set, const PoseState* pose) {
+  const bool is_known = pose != nullptr;
   Observation room(recorded.grid, thinned_, recorded.person_box_W);
   room.doubtful = recorded.doubtful;
   flesh_.Divide(BelieveWithin(posed_, room, believed_), posed_);
@@ -51,7 +81,7 @@ void PersonEvidence::GatherShare(const RecordedSet& recorded, bool is_known) {
   const Eigen::AlignedBox3d box_W =
       is_known ? DownToFloor(posed_.back().box_W, kAsideMm - kReachMm).merged(flesh.box_W)
                : AroundStranger(flesh.box_W);
-  evidence_.Gather({flesh.flesh, outlines.own, box_W, flesh.room, outlines.near});
+  Gather({flesh.flesh, outlines.own, box_W, flesh.room, outlines.near}, set, pose);
 }
 
 }  // namespace mocap

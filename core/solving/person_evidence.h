@@ -1,6 +1,7 @@
 // What a set shows of one of the people of a take.
 #pragma once
 
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -19,8 +20,10 @@ class PersonEvidence {
  public:
   /// @param everybody  tracks of all people of the take; borrowed.
   /// @param fineness   as in PeopleOptions.
-  PersonEvidence(std::span<const PersonTrack> everybody, std::size_t person, int fineness)
-      : everybody_(everybody), person_(person), fineness_(fineness) {}
+  /// @param sets       of the take; borrowed likewise.
+  PersonEvidence(const RecordedSets& sets, std::span<const PersonTrack> everybody,
+                 std::size_t person, int fineness)
+      : sets_(sets), everybody_(everybody), person_(person), fineness_(fineness) {}
 
   const PersonTrack& track() const { return everybody_[person_]; }
   /// Gathers what a set shows of the person; valid until the next call.
@@ -29,9 +32,13 @@ class PersonEvidence {
 
  private:
   void PoseOthers(int set);
-  void GatherAlone(const RecordedSet& recorded, const PoseState* pose);
-  void GatherShare(const RecordedSet& recorded, bool is_known);
+  // How the pose changes about a set, by the track [mm/s, rad/s]; empty: not known.
+  std::optional<PoseStep> RateAt(int set) const;
+  void Gather(const Observation& observation, int set, const PoseState* pose);
+  void GatherAlone(const RecordedSet& recorded, int set, const PoseState* pose);
+  void GatherShare(const RecordedSet& recorded, int set, const PoseState* pose);
 
+  const RecordedSets& sets_;
   std::span<const PersonTrack> everybody_;
   std::size_t person_;
   int fineness_;

@@ -167,7 +167,10 @@ void CarveStage::Gather(CarvedSet& set) {
   set.outlines.resize(cameras_.size());
   for (std::size_t i = 0; i < cameras_.size(); ++i) {
     if (set.cameras >> i & 1) {
-      set.outlines[i] = cameras_[i].front.outline;
+      const SegmentedFrame& front = cameras_[i].front;
+      const double after_s = static_cast<double>(front.capture_ns - set.capture_ns) * 1e-9;
+      set.outlines[i] = front.outline;
+      for (GrazingRay& ray : set.outlines[i]) ray.after_s = after_s;
     } else {
       set.outlines[i].clear();
     }

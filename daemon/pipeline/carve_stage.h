@@ -34,7 +34,7 @@ struct CarvedSet {
   /// Bounds of a single person [mm, world]; empty without anybody.
   Eigen::AlignedBox3d person_box_W;
   std::int64_t frame = 0;        ///< Counts sets from 0.
-  std::int64_t capture_ns = 0;   ///< The median of the members' times.
+  std::int64_t capture_ns = 0;   ///< The mean of the members' times.
   std::int64_t complete_ns = 0;  ///< Arrival of the last member, on the timeline.
   std::int64_t work_ns = 0;      ///< The slowest member's segmentation plus carving.
   std::uint64_t cameras = 0;     ///< Bit i: camera i is in the set.

@@ -118,7 +118,9 @@ Synchronizer::Decision Synchronizer::FormSet(std::int64_t reference_ns,
     members_[i] = cameras_[i].has_front && cameras_[i].front_ns <= end_ns;
     if (members_[i]) cameras_[i].has_front = false;
   }
-  set_ns_ = times_[(count - 1) / 2];
+  std::int64_t sum_ns = 0;
+  for (std::size_t i = 0; i < count; ++i) sum_ns += times_[i] - times_[0];
+  set_ns_ = times_[0] + sum_ns / static_cast<std::int64_t>(count);
   spread_ns_ = times_[count - 1] - times_[0];
   return Decision::kSet;
 }

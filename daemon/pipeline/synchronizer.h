@@ -70,7 +70,7 @@ class Synchronizer {
   int camera() const { return let_go_; }
   /// After kSet: for each camera whether it is a member.
   const std::vector<bool>& members() const { return members_; }
-  /// After kSet: the median of the members' times.
+  /// After kSet: the mean of the members' times, to which their hull belongs.
   std::int64_t set_ns() const { return set_ns_; }
   /// After kSet: range of the members' times.
   std::int64_t spread_ns() const { return spread_ns_; }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <sstream>
 #include <string>
 
@@ -48,6 +49,8 @@ void Check(const SimulatedStudioOptions& options) {
     Refuse("height_px", options.height_px, "16 to 8192");
   if (options.contrast != 0 && !(options.contrast >= 5 && options.contrast <= 100))
     Refuse("contrast", options.contrast, "5 to 100, or 0 for clothes of any colours");
+  if (!(options.apart_s >= 0 && options.apart_s <= 0.5 / options.fps))
+    Refuse("apart_s", options.apart_s, "0 to half a period");
   if (!(options.misled_share >= 0 && options.misled_share <= 1))
     Refuse("misled_share", options.misled_share, "0 to 1");
   if (options.crf) CheckCoding(options);
@@ -192,7 +195,10 @@ std::int64_t Scene::NominalTime(std::int64_t frame) const {
 std::int64_t Scene::CaptureTime(int camera, std::int64_t frame) const {
   Random random(Mix(options_.seed, Tag("jitter"), static_cast<std::uint64_t>(camera),
                     static_cast<std::uint64_t>(frame)));
-  return NominalTime(frame) + std::llround(random.Uniform(-kJitter_ns, kJitter_ns));
+  // Multiples of the golden ratio are spread evenly, whatever the number of cameras.
+  const double part = std::fmod(camera * std::numbers::phi, 1.0) - 0.5;
+  const double late_ns = 1e9 * options_.apart_s * part;
+  return NominalTime(frame) + std::llround(late_ns + random.Uniform(-kJitter_ns, kJitter_ns));
 }
 
 PanTiltAngles Scene::AnglesAt(int camera, std::int64_t capture_ns) const {

@@ -28,6 +28,9 @@ struct SimulatedStudioOptions {
   /// Share of the cameras, rounded up and chosen at random, that are misled: to such a camera,
   /// either all shirts or all trousers look exactly like the empty room behind them.
   double misled_share = 0;
+  /// Cameras without a common trigger: the pictures of a set are taken up to this far apart, below
+  /// half a period.
+  double apart_s = 0;
   /// Pictures, with those of the empty room, are coded by x264 at this constant rate factor and
   /// decoded again: 0 to 51. Not in real time, nor with heads that follow commands.
   std::optional<int> crf = {};

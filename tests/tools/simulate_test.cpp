@@ -146,11 +146,12 @@ TEST_F(Simulate, RefusesWhatCannotBe) {
        {"--stature 20", "--seconds 0", "--seconds nan", "--seconds 1e300", "--fps 1e9",
         "--cameras 0", "--cameras 1000000000", "--people 0", "--people 5", "--width 4",
         "--height 1000000000", "--contrast 4", "--misled 1.1", "--contrast 15 --board floor",
-        "--misled 0.5 --board floor"}) {
+        "--misled 0.5 --board floor", "--apart -1"}) {
     EXPECT_THROW(Run("take", option), CLI::ParseError) << option;
   }
   EXPECT_THROW(Run("take", "--cameras 64 --width 8192 --height 8192"), SetupError);
   EXPECT_THROW(Run("take", "--crf 28 --width 161"), SetupError);
+  EXPECT_THROW(Run("take", "--fps 30 --apart 0.02"), SetupError);
   EXPECT_FALSE(fs::exists(folder_ / "take"));
 }
 

@@ -21,11 +21,12 @@ void TakeGrid(BytesIn& in, VoxelGrid& grid) {
   if (!grid.words().empty()) in.TakeAll(grid.row(0, 0), grid.words().size());
 }
 
-// The rays of a camera have the same eye. Single precision is a thousandth of a pixel.
+// The rays of a camera have the same eye and time. Single precision is a thousandth of a pixel.
 void AddOutline(const Outline& outline, BytesOut& out) {
   out.Add(static_cast<std::uint32_t>(outline.size()));
   if (outline.empty()) return;
   out.AddVector<double>(outline.front().eye_W);
+  out.Add(outline.front().after_s);
   for (const GrazingRay& ray : outline) {
     out.AddVector<float>(ray.direction_W.cast<float>());
     out.AddVector<float>(ray.outward_W.cast<float>());
@@ -37,8 +38,10 @@ void TakeOutline(BytesIn& in, Outline& outline) {
   outline.resize(in.Take<std::uint32_t>());
   if (outline.empty()) return;
   const Vector3 eye_W = in.TakeVector<double>();
+  const auto after_s = in.Take<double>();
   for (GrazingRay& ray : outline) {
     ray.eye_W = eye_W;
+    ray.after_s = after_s;
     ray.direction_W = in.TakeVector<float>().cast<double>();
     ray.outward_W = in.TakeVector<float>().cast<double>();
     ray.rank = in.Take<SpreadRank>();

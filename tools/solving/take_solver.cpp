@@ -80,8 +80,8 @@ class TakeSolver {
 
  private:
   SetSpoolReader Reader() const { return {files_.Sets(), index_}; }
-  PersonEvidence EvidenceOf(std::size_t person) const {
-    return {tracks_, person, options_.fineness};
+  PersonEvidence EvidenceOf(const RecordedSets& sets, std::size_t person) const {
+    return {sets, tracks_, person, options_.fineness};
   }
   /// Whether a person was tracked in a part or its margins.
   bool IsSeenIn(const Part& part, std::size_t person) const {
@@ -129,7 +129,7 @@ class TakeSolver {
     for (std::size_t i = 0; i < runs.size(); ++i)
       jobs.emplace_back([this, person, &runs, &found, i] {
         SetSpoolReader reader = Reader();
-        PersonEvidence evidence = EvidenceOf(person);
+        PersonEvidence evidence = EvidenceOf(reader, person);
         found[i] = FollowHypotheses(reader, runs[i], evidence);
       });
     DoAll(jobs, options_.jobs);
@@ -160,7 +160,7 @@ class TakeSolver {
     for (std::size_t person = 0; person < tracks_.size(); ++person)
       jobs.emplace_back([this, person, &measured] {
         SetSpoolReader reader = Reader();
-        PersonEvidence evidence = EvidenceOf(person);
+        PersonEvidence evidence = EvidenceOf(reader, person);
         const std::vector<PathStep>& path = paths_[person];
         PersonTrack& track = measured[person];
         track.body.Resize(MeasureOver(reader, 0, path, evidence));
@@ -188,7 +188,7 @@ class TakeSolver {
 
   std::vector<SolvedPose> SmoothPart(std::size_t person, const Part& part, Things things) const {
     SetSpoolReader reader = Reader();
-    PersonEvidence evidence = EvidenceOf(person);
+    PersonEvidence evidence = EvidenceOf(reader, person);
     const std::span<const PathStep> steps =
         std::span(paths_[person])
             .subspan(static_cast<std::size_t>(part.from),

@@ -16,6 +16,7 @@ struct GrazingRay {
   Vector3 direction_W;  ///< Unit length, away from the camera.
   Vector3 outward_W;    ///< The surface's normal where the ray touches it; unit length.
   SpreadRank rank = 0;  ///< Of the border's pixel.
+  double after_s = 0;   ///< When its picture was taken, after the time of the set.
 
   /// Whether the border has no direction there, or the lens does not cover the position.
   bool empty() const { return outward_W == Vector3::Zero(); }

@@ -75,7 +75,7 @@ TEST_F(FleshTermTest, OfAHullWithHolesWeighsLess) {
 }
 
 TEST_F(FleshTermTest, IsSilentWhereNoFleshWasSeen) {
-  const Evidence nothing;
+  const Evidence nothing{};
   SetFlesh(nothing);
   EXPECT_FALSE(term_.WayToFlesh(Vector3::Zero()));
   EXPECT_EQ(At(Standing({})), 0);

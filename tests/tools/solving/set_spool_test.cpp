@@ -19,7 +19,8 @@ RecordedSet SetAt(int i) {
   set.outlines.resize(3);
   for (int ray = 0; ray < i; ++ray)
     set.outlines[1].push_back({Vector3(1.5, -2000.25, 3), Vector3(1, 2, 3).normalized(),
-                               Vector3(3, 0, -1).normalized(), static_cast<SpreadRank>(ray)});
+                               Vector3(3, 0, -1).normalized(), static_cast<SpreadRank>(ray),
+                               0.001 * i});
   return set;
 }
 
@@ -40,6 +41,7 @@ void ExpectEqual(const RecordedSet& a, const RecordedSet& b) {
       EXPECT_LT((ray.direction_W - other.direction_W).norm(), 1e-6);
       EXPECT_LT((ray.outward_W - other.outward_W).norm(), 1e-6);
       EXPECT_EQ(ray.rank, other.rank);
+      EXPECT_EQ(ray.after_s, other.after_s);
     }
   }
 }
