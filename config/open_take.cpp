@@ -92,6 +92,19 @@ const CameraCalibration& Find(const std::vector<CameraCalibration>& calibrations
   return *camera;
 }
 
+/// Takes off the rows before the take begins. @return  how many.
+std::size_t TakeOffLead(const TakeHeader& header, const std::filesystem::path& file,
+                        TakeTable& table) {
+  if (!header.begin_ns) return 0;
+  const auto first =
+      std::ranges::lower_bound(table.rows, *header.begin_ns, {}, &TakeRow::timestamp_ns);
+  if (first == table.rows.end())
+    throw SetupError(file.string() + ": ends before begin_ns of take.toml; expected later frames");
+  const auto lead = static_cast<std::size_t>(first - table.rows.begin());
+  table.rows.erase(table.rows.begin(), first);
+  return lead;
+}
+
 ReplaySpan SpanOf(const std::vector<TakeTable>& tables, double fps_nominal,
                   const std::filesystem::path& take) {
   ReplaySpan span;
@@ -157,10 +170,12 @@ Studio OpenTake(const std::filesystem::path& take, const TakeOptions& options) {
   Studio studio{header.name, header.fps_nominal, {}};
   RemarkOnPlaces(calibrations, layout.Calibration(), studio);
   std::vector<TakeTable> tables;
+  std::vector<std::size_t> leads;
   for (const std::string& name : names) {
     const CameraCalibration& camera = Find(calibrations, name, layout.Calibration());
     tables.push_back(ReadCameraTable(layout.Table(name), camera));
     CheckTimes(tables.back(), header.fps_nominal, layout.Table(name), studio.remarks);
+    leads.push_back(TakeOffLead(header, layout.Table(name), tables.back()));
     studio.cameras.push_back({camera, nullptr, {}});
     if (options.masks.empty())
       studio.cameras.back().background =
@@ -174,6 +189,7 @@ Studio OpenTake(const std::filesystem::path& take, const TakeOptions& options) {
     for (const std::string& name : Choose(header, {}, layout)) {
       spanned.push_back(
           ReadCameraTable(layout.Table(name), Find(calibrations, name, layout.Calibration())));
+      TakeOffLead(header, layout.Table(name), spanned.back());
     }
   }
   const auto replay = std::make_shared<Replay>(
@@ -185,9 +201,10 @@ Studio OpenTake(const std::filesystem::path& take, const TakeOptions& options) {
     VideoReader video = options.masks.empty()
                             ? OpenCameraVideo(pictures, camera.calibration)
                             : OpenMasks(options.masks / pictures.filename(), pictures,
-                                        tables[i].rows.size(), camera.calibration);
+                                        leads[i] + tables[i].rows.size(), camera.calibration);
     if (options.in_memory) video.KeepInMemory();
-    camera.driver = std::make_unique<TakeDriver>(std::move(video), std::move(tables[i]), replay);
+    camera.driver =
+        std::make_unique<TakeDriver>(std::move(video), std::move(tables[i]), replay, leads[i]);
   }
   return studio;
 }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <limits>
 
 #include "config/toml_section.h"
 #include "core/errors.h"
@@ -41,6 +42,9 @@ TakeHeader ReadTakeHeader(const std::filesystem::path& take) {
   header.name = section.Text("name");
   header.fps_nominal = section.NumberWithin("fps_nominal", 0.1, 10000);
   header.cameras = section.Texts("cameras");
+  if (section.Has("begin_ns"))
+    header.begin_ns =
+        section.IntegerWithin("begin_ns", 0, std::numeric_limits<std::int64_t>::max());
   if (header.cameras.empty()) section.Fail("cameras", "is empty; expected names of cameras");
   for (const std::string& name : header.cameras) {
     if (!IsCameraName(name)) {

@@ -1,7 +1,9 @@
 // What a take says of itself: take.toml.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -12,6 +14,8 @@ struct TakeHeader {
   std::string name;
   double fps_nominal = 0;
   std::vector<std::string> cameras;
+  /// Earlier pictures are left out, because not all cameras film yet; empty: none are.
+  std::optional<std::int64_t> begin_ns;
 };
 
 /// Reads take.toml of a take.

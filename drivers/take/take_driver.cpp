@@ -8,8 +8,9 @@
 
 namespace mocap {
 
-TakeDriver::TakeDriver(VideoReader video, TakeTable table, std::shared_ptr<Replay> replay)
-    : video_(std::move(video)), table_(std::move(table)), replay_(std::move(replay)) {
+TakeDriver::TakeDriver(VideoReader video, TakeTable table, std::shared_ptr<Replay> replay,
+                       std::size_t lead)
+    : video_(std::move(video)), table_(std::move(table)), replay_(std::move(replay)), lead_(lead) {
   MOCAP_CHECK(!table_.rows.empty() && replay_);
 }
 
@@ -18,7 +19,8 @@ TakeDriver::~TakeDriver() { Stop(); }
 void TakeDriver::Start() {
   MOCAP_CHECK(!started_);
   if (!fresh_) video_.Rewind();
-  fresh_ = true;
+  PassLead();
+  fresh_ = lead_ == 0;
   read_.reset();
   loop_ = 0;
   row_ = 0;
@@ -48,9 +50,14 @@ GrabStatus TakeDriver::Grab(Frame& frame, std::chrono::milliseconds timeout) {
   return HandOut(frame);
 }
 
+void TakeDriver::PassLead() {
+  for (std::size_t i = 0; i < lead_; ++i) video_.Skip();
+}
+
 bool TakeDriver::NextLoop() {
   try {
     video_.Rewind();
+    PassLead();
   } catch (const SetupError&) {
     return false;
   }

@@ -23,7 +23,9 @@ class TakeDriver : public CameraDriver {
   /// Frames that wait for a slow caller in real time before the oldest is dropped.
   static constexpr std::size_t kBufferedFrames = 4;
 
-  TakeDriver(VideoReader video, TakeTable table, std::shared_ptr<Replay> replay);
+  /// @param lead  pictures of the video before the one of the first row.
+  TakeDriver(VideoReader video, TakeTable table, std::shared_ptr<Replay> replay,
+             std::size_t lead = 0);
   ~TakeDriver() override;
 
   void Start() override;
@@ -34,6 +36,7 @@ class TakeDriver : public CameraDriver {
   std::int64_t CaptureTimeNs(std::size_t row) const {
     return table_.rows[row].timestamp_ns + shift_ns_ + replay_->LoopOffset(loop_);
   }
+  void PassLead();
   bool NextLoop();
   bool ReadNext();
   std::int64_t OverdueAtNs() const;
@@ -44,6 +47,7 @@ class TakeDriver : public CameraDriver {
   VideoReader video_;
   const TakeTable table_;
   const std::shared_ptr<Replay> replay_;
+  const std::size_t lead_;
   bool started_ = false;
   bool fresh_ = true;  ///< The video is at its first frame.
   std::int64_t shift_ns_ = 0;

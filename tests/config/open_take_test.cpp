@@ -182,6 +182,28 @@ std::string TableWithIntervals(std::int64_t interval) {
   return text;
 }
 
+TEST_F(OpenedTake, BeginsWhereItsDescriptionSays) {
+  WriteSmallTake(layout_.folder, take_);
+  const std::filesystem::path file = layout_.Description();
+  const auto begin_at = [&](std::int64_t begin_ns) {
+    WriteText(file,
+              "name = \"small\"\nfps_nominal = 25\ncameras = [\"cam1\", \"cam2\", \"cam3\"]\n"
+              "begin_ns = " +
+                  std::to_string(begin_ns) + "\n");
+  };
+  begin_at(take_.TimeNs(1, 2));
+  const Studio studio = OpenTake(layout_.folder, {});
+  for (const StudioCamera& camera : studio.cameras) {
+    Frame frame;
+    camera.driver->Start();
+    ASSERT_EQ(camera.driver->Grab(frame, milliseconds(0)), GrabStatus::kFrame);
+    EXPECT_GE(frame.capture_ns, take_.TimeNs(1, 2));
+    EXPECT_LT(frame.capture_ns, take_.TimeNs(1, 3));
+  }
+  begin_at(take_.TimeNs(2, take_.frames));
+  EXPECT_THAT(ErrorOnOpening(), HasSubstr("cam1.csv: ends before begin_ns of take.toml"));
+}
+
 TEST_F(OpenedTake, TimesThatAreNoNanosecondsAreRefused) {
   WriteSmallTake(layout_.folder, take_);
   const std::pair<std::int64_t, const char*> cases[] = {

@@ -49,7 +49,7 @@ constexpr std::array kUnrun = {
     Unrun{"mocap calibrate intrinsics carried", "needs videos of phones"},
     Unrun{"mocap calibrate extrinsics lying", "needs videos of phones"},
     Unrun{"mocap take import", "needs videos of phones"},
-    Unrun{"mocap track phones", "needs videos of phones"},
+    Unrun{"mocap solve phones", "needs videos of phones"},
     Unrun{"mocap export filmed", "needs videos of phones"},
     Unrun{"mocap gait filmed", "needs videos of phones"},
     Unrun{"mocap export session.lcm", "needs a log of a daemon"},

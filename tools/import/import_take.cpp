@@ -186,7 +186,8 @@ void WriteCamera(const TakeLayout& layout, ImportedCamera& camera) {
   WriteTable(layout.Table(name), camera.times_ns);
 }
 
-std::string DescriptionOf(const std::string& name, const std::vector<ImportedCamera>& cameras) {
+std::string DescriptionOf(const std::string& name, std::int64_t begin_ns,
+                          const std::vector<ImportedCamera>& cameras) {
   std::string names, videos, methods;
   double rate_hz = 0;
   for (const ImportedCamera& camera : cameras) {
@@ -196,16 +197,16 @@ std::string DescriptionOf(const std::string& name, const std::vector<ImportedCam
     methods += comma + TomlText(kSyncNames[static_cast<int>(camera.clock.method)]);
     rate_hz = std::max(rate_hz, camera.rate_hz);
   }
-  std::string text =
-      fmt::format("name = {}\nfps_nominal = {}\ncameras = [{}]\nsource = \"imported\"\n",
-                  TomlText(name), TomlNumber(std::round(rate_hz * 1000) / 1000), names);
+  std::string text = fmt::format(
+      "name = {}\nfps_nominal = {}\ncameras = [{}]\nbegin_ns = {}\nsource = \"imported\"\n",
+      TomlText(name), TomlNumber(std::round(rate_hz * 1000) / 1000), names, begin_ns);
   return text + fmt::format("videos = [{}]\nsynchronized_by = [{}]\n", videos, methods);
 }
 
-void WriteTake(const TakeLayout& layout, const std::string& name,
+void WriteTake(const TakeLayout& layout, const std::string& name, std::int64_t begin_ns,
                std::vector<ImportedCamera>& cameras) {
   WriteCalibration(layout.Calibration(), CalibrationsOf(cameras));
-  WriteText(layout.Description(), DescriptionOf(name, cameras));
+  WriteText(layout.Description(), DescriptionOf(name, begin_ns, cameras));
   for (ImportedCamera& camera : cameras) {
     Tell("writing " + camera.calibration.name);
     WriteCamera(layout, camera);
@@ -245,9 +246,12 @@ ImportedTake ImportTake(const ImportRequest& request) {
   }
   for (std::size_t i = 0; i < cameras.size(); ++i) cameras[i].clock = clocks[i];
   PlaceFrames(cameras);
-  take.common_s = RequireCommonTime(cameras);
+  const CommonTime common = RequireCommonTime(cameras, take.remarks);
+  take.common_s = common.length_s();
+  for (ImportedCamera& camera : cameras)
+    std::erase_if(camera.times_ns, [&](std::int64_t time_ns) { return time_ns > common.end_ns; });
   MeasureApart(cameras);
-  WriteTake(layout, folder.filename().string(), cameras);
+  WriteTake(layout, folder.filename().string(), common.begin_ns, cameras);
   OpenTake(partial, {});  // Whatever would keep it from being tracked is an error of this command.
   std::filesystem::rename(partial, folder);
   unfinished.Finish();

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "core/errors.h"
 #include "core/quantile.h"
@@ -98,7 +99,23 @@ std::vector<ImportedCamera> Matched(const ImportRequest& request,
   return cameras;
 }
 
-double Seconds(std::int64_t time_ns) { return static_cast<double>(time_ns) / 1e9; }
+// Phones are started one after the other, in about this time; more was not meant.
+constexpr double kShortens_s = 10;
+
+std::int64_t Begin(const ImportedCamera& camera) { return camera.times_ns.front(); }
+std::int64_t End(const ImportedCamera& camera) { return camera.times_ns.back(); }
+
+CommonTime CommonTimeWithout(const ImportedCamera& one,
+                             const std::vector<ImportedCamera>& cameras) {
+  CommonTime common{std::numeric_limits<std::int64_t>::min(),
+                    std::numeric_limits<std::int64_t>::max()};
+  for (const ImportedCamera& camera : cameras) {
+    if (&camera == &one) continue;
+    common.begin_ns = std::max(common.begin_ns, Begin(camera));
+    common.end_ns = std::min(common.end_ns, End(camera));
+  }
+  return common;
+}
 
 }  // namespace
 
@@ -125,16 +142,24 @@ std::vector<ImportedCamera> CheckVideos(const ImportRequest& request,
   return cameras;
 }
 
-double RequireCommonTime(const std::vector<ImportedCamera>& cameras) {
-  const auto& last = *std::ranges::max_element(
-      cameras, {}, [](const ImportedCamera& camera) { return camera.times_ns.front(); });
-  const auto& first = *std::ranges::min_element(
-      cameras, {}, [](const ImportedCamera& camera) { return camera.times_ns.back(); });
-  const double common_s = Seconds(first.times_ns.back() - last.times_ns.front());
-  if (common_s > 0) return common_s;
-  throw SetupError(
-      fmt::format("{}: ends {:.2f} s before {} begins; expected videos of the same time",
-                  first.calibration.name, -common_s, last.calibration.name));
+CommonTime RequireCommonTime(const std::vector<ImportedCamera>& cameras,
+                             std::vector<std::string>& remarks) {
+  const auto& last = *std::ranges::max_element(cameras, {}, Begin);
+  const auto& first = *std::ranges::min_element(cameras, {}, End);
+  const CommonTime common{Begin(last), End(first)};
+  if (common.length_s() <= 0)
+    throw SetupError(
+        fmt::format("{}: ends {:.2f} s before {} begins; expected videos of the same time",
+                    first.calibration.name, -common.length_s(), last.calibration.name));
+  for (const ImportedCamera& camera : cameras) {
+    const double longer_s = CommonTimeWithout(camera, cameras).length_s() - common.length_s();
+    if (longer_s > kShortens_s)
+      remarks.push_back(
+          fmt::format("{}: its video shortens the take by {:.1f} s; without it, the "
+                      "others film together for {:.1f} s",
+                      camera.calibration.name, longer_s, common.length_s() + longer_s));
+  }
+  return common;
 }
 
 void MeasureApart(std::vector<ImportedCamera>& cameras) {

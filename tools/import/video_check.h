@@ -11,9 +11,17 @@ namespace mocap {
 std::vector<ImportedCamera> CheckVideos(const ImportRequest& request,
                                         std::vector<std::string>& remarks);
 
-/// The part that all recordings have in common [s].
+/// A stretch of the take's clock.
+struct CommonTime {
+  std::int64_t begin_ns = 0, end_ns = 0;
+
+  double length_s() const { return static_cast<double>(end_ns - begin_ns) / 1e9; }
+};
+
+/// The time in which all cameras film. A remark names a camera that shortens it much.
 /// @throws SetupError  if there is none, naming the two that are farthest apart.
-double RequireCommonTime(const std::vector<ImportedCamera>& cameras);
+CommonTime RequireCommonTime(const std::vector<ImportedCamera>& cameras,
+                             std::vector<std::string>& remarks);
 
 /// Measures how far the pictures of each camera are from those of the fastest one at the same time.
 void MeasureApart(std::vector<ImportedCamera>& cameras);

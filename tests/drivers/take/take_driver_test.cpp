@@ -52,10 +52,13 @@ class Recording {
     replay_ = std::make_shared<Replay>(span, loop, std::move(clock), begin_ns);
   }
 
-  std::unique_ptr<TakeDriver> Make(int camera) const {
+  /// @param lead  pictures before the first that counts.
+  std::unique_ptr<TakeDriver> Make(int camera, int lead = 0) const {
     const std::string name = "cam" + std::to_string(camera + 1);
-    return std::make_unique<TakeDriver>(VideoReader(layout_.Video(name)),
-                                        ReadTakeTable(layout_.Table(name)), replay_);
+    TakeTable table = ReadTakeTable(layout_.Table(name));
+    table.rows.erase(table.rows.begin(), table.rows.begin() + lead);
+    return std::make_unique<TakeDriver>(VideoReader(layout_.Video(name)), std::move(table), replay_,
+                                        static_cast<std::size_t>(lead));
   }
 
   const SmallTake& take() const { return take_; }
@@ -85,6 +88,23 @@ TEST(TakeDriver, FastGivesEveryFrameWithTheTimesOfTheRecording) {
     EXPECT_TRUE(SamePixels<Bgr>(frame.image, SmallPicture(recording.take(), 1, i).view())) << i;
   }
   EXPECT_EQ(driver->Grab(frame, milliseconds(0)), GrabStatus::kEnd);
+}
+
+TEST(TakeDriver, PassesPicturesBeforeTheFirstRowEachTime) {
+  constexpr int kLead = 3;
+  Recording recording(Pace::kFast, false);
+  const auto driver = recording.Make(1, kLead);
+  Frame frame;
+  for (int run = 0; run < 2; ++run) {
+    driver->Start();
+    for (int i = kLead; i < recording.take().frames; ++i) {
+      ASSERT_EQ(driver->Grab(frame, milliseconds(0)), GrabStatus::kFrame);
+      EXPECT_EQ(frame.capture_ns, recording.take().TimeNs(1, i));
+      EXPECT_TRUE(SamePixels<Bgr>(frame.image, SmallPicture(recording.take(), 1, i).view())) << i;
+    }
+    EXPECT_EQ(driver->Grab(frame, milliseconds(0)), GrabStatus::kEnd);
+    driver->Stop();
+  }
 }
 
 TEST(TakeDriver, RealtimeMovesTheTakeToThePresentAndKeepsItsIntervals) {

@@ -4,6 +4,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <filesystem>
 #include <map>
@@ -198,6 +200,16 @@ TEST_F(TakeImport, MakesATakeThatOpens) {
   const Studio studio = OpenTake(Out(), {});
   EXPECT_EQ(studio.cameras.size(), 4u);
   EXPECT_EQ(studio.fps_nominal, kFps);
+  // It begins when all cameras film. The slowest has half of the rate.
+  std::vector<std::int64_t> firsts_ns;
+  for (const StudioCamera& camera : studio.cameras) {
+    Frame frame;
+    camera.driver->Start();
+    ASSERT_EQ(camera.driver->Grab(frame, std::chrono::milliseconds(0)), GrabStatus::kFrame);
+    firsts_ns.push_back(frame.capture_ns);
+  }
+  const auto [first, last] = std::ranges::minmax(firsts_ns);
+  EXPECT_LE(static_cast<double>(last - first), 2e9 / kFps);
   EXPECT_FALSE(fs::exists(Out().string() + ".partial"));
 }
 
