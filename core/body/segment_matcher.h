@@ -11,6 +11,9 @@
 
 namespace mocap {
 
+/// A part of the body farther away than this does not explain evidence [mm].
+inline constexpr double kReach_mm = 150;
+
 /// A segment that touches a surface, or a point of one (from_W = to_W).
 struct OrientedSegment {
   Vector3 from_W;

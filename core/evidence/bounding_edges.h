@@ -16,31 +16,14 @@ struct BoundingEdge : OrientedSegment {
   /// The ray misses the hull: another camera did not see what it grazes, so it was carved away.
   bool misses_hull = false;
   SpreadRank rank = 0;  ///< Of the ray.
-  double after_s = 0;   ///< Likewise.
+  int camera = 0;       ///< Whose outline has the ray.
 };
 
-/// Cuts rays to bounding edges. Reuses its memory.
-class BoundingEdgeFinder {
- public:
-  /// Cuts each ray to its part along the voxels. A ray that misses them keeps its whole length in
-  /// the person's box, because another camera may have missed a limb, so that it was carved away.
-  /// Such rays are dropped if a camera has many more of them than the others, because then this
-  /// camera is wrong.
-  void Find(const VoxelCloud& cloud, std::span<const Outline> outlines,
-            const Eigen::AlignedBox3d& box_W, std::vector<BoundingEdge>& edges);
-
- private:
-  struct Camera {
-    int rays = 0, missing = 0;
-    std::size_t cuts = 0;
-  };
-
-  Camera CutRays(const VoxelCloud& cloud, const Outline& outline, const Eigen::AlignedBox3d& box_W);
-  double UsualMissingShare();
-
-  std::vector<BoundingEdge> cuts_;
-  std::vector<Camera> cameras_;
-  std::vector<double> shares_;
-};
+/// Cuts each ray to its part along the voxels. A ray that misses them keeps its whole length in the
+/// person's box, because another camera may have missed a limb, so that it was carved away.
+/// @param outlines  one per camera.
+/// @param edges     overwritten; their memory is reused.
+void FindBoundingEdges(const VoxelCloud& cloud, std::span<const Outline> outlines,
+                       const Eigen::AlignedBox3d& box_W, std::vector<BoundingEdge>& edges);
 
 }  // namespace mocap

@@ -28,7 +28,6 @@ struct Evidence {
   std::vector<Outline> borders;  ///< One per camera; empty for cameras that are missing.
   std::vector<BoundingEdge> edges;
   std::optional<Vector3> toes_W;  ///< Where the feet point; see FeetFinder.
-  BoundingEdgeFinder edge_finder;
   FeetFinder feet_finder;
   RayMotion ray_motion;
 
@@ -37,8 +36,8 @@ struct Evidence {
   void Gather(const Observation& observation, const PersonMotion* motion = nullptr) {
     cloud.Build(observation.flesh, observation.room);
     borders.assign(observation.borders.begin(), observation.borders.end());
-    edge_finder.Find(cloud, observation.outlines, observation.box_W, edges);
-    if (motion) ray_motion.BringToSet(*motion, edges, borders);
+    FindBoundingEdges(cloud, observation.outlines, observation.box_W, edges);
+    if (motion) ray_motion.BringToSet(*motion, observation.box_W, edges, borders);
     toes_W = feet_finder.ToesBeforeShins(cloud);
   }
 

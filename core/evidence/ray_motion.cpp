@@ -3,37 +3,38 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/reconstruction/silhouette/line_range.h"
+
 namespace mocap {
 namespace {
 
 // A trigger is more exact. In this time a hand at 3 m/s moves by 3 mm, much less than rays err.
 constexpr double kAtOnce_s = 0.001;
-// What passes every part at this distance shows something else.
-constexpr double kGrazes_mm = 150;
-// A ray reaches from its camera to here, beyond anybody.
-constexpr double kLongest_mm = 20000;
+
+bool IsAtOnce(const Outline& outline) {
+  return outline.empty() || std::abs(outline.front().after_s) < kAtOnce_s;
+}
 
 }  // namespace
 
-void RayMotion::BringToSet(const PersonMotion& motion, std::vector<BoundingEdge>& edges,
-                           std::vector<Outline>& borders) {
-  bool is_posed = false;
-  for (Outline& outline : borders) {
-    if (outline.empty() || std::abs(outline.front().after_s) < kAtOnce_s) continue;
-    if (!is_posed) at_set_.Set(motion.body, motion.pose_after(0));
-    is_posed = true;
-    const double after_s = outline.front().after_s;
-    seen_.Set(motion.body, motion.pose_after(after_s));
-    MoveEdges(after_s, edges);
-    MoveRays(outline);
+void RayMotion::BringToSet(const PersonMotion& motion, const Eigen::AlignedBox3d& box_W,
+                           std::vector<BoundingEdge>& edges, std::vector<Outline>& borders) {
+  if (std::ranges::all_of(borders, IsAtOnce)) return;
+  at_set_.Set(motion.body, motion.pose_after(0));
+  for (std::size_t camera = 0; camera < borders.size(); ++camera) {
+    Outline& outline = borders[camera];
+    if (IsAtOnce(outline)) continue;
+    seen_.Set(motion.body, motion.pose_after(outline.front().after_s));
+    MoveEdges(static_cast<int>(camera), edges);
+    MoveRays(box_W, outline);
   }
 }
 
-void RayMotion::MoveEdges(double after_s, std::vector<BoundingEdge>& edges) {
+void RayMotion::MoveEdges(int camera, std::vector<BoundingEdge>& edges) {
   segments_.clear();
   places_.clear();
   for (std::size_t i = 0; i < edges.size(); ++i) {
-    if (edges[i].after_s != after_s) continue;
+    if (edges[i].camera != camera) continue;
     segments_.push_back(edges[i]);
     places_.push_back(i);
   }
@@ -46,13 +47,15 @@ void RayMotion::MoveEdges(double after_s, std::vector<BoundingEdge>& edges) {
 }
 
 // The rays of a camera keep their eye.
-void RayMotion::MoveRays(Outline& outline) {
+void RayMotion::MoveRays(const Eigen::AlignedBox3d& box_W, Outline& outline) {
   segments_.clear();
   places_.clear();
   for (std::size_t i = 0; i < outline.size(); ++i) {
     const GrazingRay& ray = outline[i];
-    if (ray.empty()) continue;
-    segments_.push_back({ray.eye_W, ray.eye_W + kLongest_mm * ray.direction_W, ray.outward_W});
+    const auto range = RangeWithin(box_W, ray.eye_W, ray.direction_W);
+    if (ray.empty() || !range) continue;
+    segments_.push_back({ray.eye_W + range->from_mm * ray.direction_W,
+                         ray.eye_W + range->to_mm * ray.direction_W, ray.outward_W});
     places_.push_back(i);
   }
   const std::vector<SegmentMatch>& matches = Match();
@@ -68,7 +71,7 @@ void RayMotion::MoveRays(Outline& outline) {
 
 const std::vector<SegmentMatch>& RayMotion::Match() {
   matcher_.SetSegments(segments_);
-  return matcher_.Match(seen_.capsules(), kGrazes_mm);
+  return matcher_.Match(seen_.capsules(), kReach_mm);
 }
 
 Vector3 RayMotion::MotionOf(const SegmentMatch& match) const {

@@ -23,13 +23,14 @@ struct PersonMotion {
 /// part of the body stays. Reuses its memory.
 class RayMotion {
  public:
+  /// @param box_W    contains the person [mm].
   /// @param borders  one outline per camera.
-  void BringToSet(const PersonMotion& motion, std::vector<BoundingEdge>& edges,
-                  std::vector<Outline>& borders);
+  void BringToSet(const PersonMotion& motion, const Eigen::AlignedBox3d& box_W,
+                  std::vector<BoundingEdge>& edges, std::vector<Outline>& borders);
 
  private:
-  void MoveEdges(double after_s, std::vector<BoundingEdge>& edges);
-  void MoveRays(Outline& outline);
+  void MoveEdges(int camera, std::vector<BoundingEdge>& edges);
+  void MoveRays(const Eigen::AlignedBox3d& box_W, Outline& outline);
   const std::vector<SegmentMatch>& Match();
   Vector3 MotionOf(const SegmentMatch& match) const;
 

@@ -10,9 +10,6 @@
 
 namespace mocap {
 
-/// A part of the body farther away than this does not explain evidence [mm].
-inline constexpr double kReach_mm = 150;
-
 /// Rays that graze the person, about the body's surface.
 inline constexpr ResidualNoise kRayNoise{.freedom = 1.8, .inside_mm = 9, .outside_mm = 16};
 /// Voxels of the hull's surface, about the body's surface.

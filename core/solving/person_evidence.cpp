@@ -1,15 +1,9 @@
 #include "core/solving/person_evidence.h"
 
+#include "core/hypotheses/pose_filter.h"
 #include "core/reconstruction/carving/voxel_block.h"
 
 namespace mocap {
-namespace {
-
-// Poses farther apart do not show how somebody moved between them.
-constexpr double kLongestStep_s = 0.25;
-
-}  // namespace
-
 void PersonEvidence::PoseOthers(int set) {
   posed_.clear();
   for (std::size_t i = 0; i < everybody_.size(); ++i) {
@@ -38,7 +32,8 @@ std::optional<PoseStep> PersonEvidence::RateAt(int set) const {
             after = track().At(set + 1) ? set + 1 : set;
   if (before == after || !track().At(before) || !track().At(after)) return std::nullopt;
   const double between_s = TimeBetween_s(sets_, before, after);
-  if (between_s <= 0 || between_s > kLongestStep_s) return std::nullopt;
+  // Over a longer time, poses do not show how somebody moved between them.
+  if (between_s <= 0 || between_s > MotionNoise{}.velocity_decay_s) return std::nullopt;
   return track().At(after)->Minus(*track().At(before)) / between_s;
 }
 

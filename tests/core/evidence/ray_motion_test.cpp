@@ -38,14 +38,14 @@ class RaysOfWalker : public ::testing::Test {
     return outline;
   }
 
-  static std::vector<BoundingEdge> EdgesOf(const Outline& outline) {
+  static std::vector<BoundingEdge> EdgesOf(const Outline& outline, int camera = 0) {
     std::vector<BoundingEdge> edges;
     for (const GrazingRay& ray : outline)
       edges.push_back(
           {{ray.eye_W + 2000 * ray.direction_W, ray.eye_W + 6000 * ray.direction_W, ray.outward_W},
            false,
            ray.rank,
-           ray.after_s});
+           camera});
     return edges;
   }
 
@@ -63,6 +63,7 @@ class RaysOfWalker : public ::testing::Test {
 
   BodyModel body_{LoadBodyTable("full"), AverageSizes(1750)};
   Vector3 eye_W_{3500, 1500, 2500};
+  Eigen::AlignedBox3d box_W_{Vector3(-1800, -2100, -500), Vector3(2200, 1900, 2500)};
   PersonMotion motion_{body_, [this](double after_s) { return PoseAfter(after_s); }};
 };
 
@@ -72,16 +73,27 @@ TEST_F(RaysOfWalker, GrazeTheBodyAtTheMomentOfTheSet) {
     std::vector<BoundingEdge> edges = EdgesOf(borders[0]);
     const double before_mm = MissOf(edges);
     EXPECT_GT(before_mm, 10);
-    RayMotion().BringToSet(motion_, edges, borders);
+    RayMotion().BringToSet(motion_, box_W_, edges, borders);
     EXPECT_LT(MissOf(edges), 0.2 * before_mm);
     EXPECT_LT(MissOf(EdgesOf(borders[0])), 0.2 * before_mm);
   }
 }
 
+TEST_F(RaysOfWalker, OfTwoCamerasAtTheSameMomentMoveOnceEach) {
+  const Outline seen = RaysSeen(kLate_s);
+  std::vector<Outline> borders = {seen, seen}, alone = {seen};
+  std::vector<BoundingEdge> edges = EdgesOf(seen), edges_alone = EdgesOf(seen);
+  for (const BoundingEdge& edge : EdgesOf(seen, 1)) edges.push_back(edge);
+  RayMotion().BringToSet(motion_, box_W_, edges, borders);
+  RayMotion().BringToSet(motion_, box_W_, edges_alone, alone);
+  for (std::size_t i = 0; i < edges.size(); ++i)
+    EXPECT_EQ(edges[i].from_W, edges_alone[i % seen.size()].from_W);
+}
+
 TEST_F(RaysOfWalker, KeepEyeAndRightAngles) {
   std::vector<Outline> borders = {RaysSeen(kLate_s)};
   std::vector<BoundingEdge> edges;
-  RayMotion().BringToSet(motion_, edges, borders);
+  RayMotion().BringToSet(motion_, box_W_, edges, borders);
   for (const GrazingRay& ray : borders[0]) {
     EXPECT_EQ(ray.eye_W, eye_W_);
     EXPECT_NEAR(ray.direction_W.norm(), 1, 1e-12);
@@ -94,7 +106,7 @@ TEST_F(RaysOfWalker, OfACameraWithATriggerStay) {
   const Outline at_once = RaysSeen(0.0005), late = RaysSeen(kLate_s);
   std::vector<Outline> borders = {at_once, late};
   std::vector<BoundingEdge> edges = EdgesOf(at_once);
-  RayMotion().BringToSet(motion_, edges, borders);
+  RayMotion().BringToSet(motion_, box_W_, edges, borders);
   for (std::size_t i = 0; i < at_once.size(); ++i) {
     EXPECT_EQ(borders[0][i].direction_W, at_once[i].direction_W);
     EXPECT_EQ(edges[i].from_W, EdgesOf(at_once)[i].from_W);
@@ -107,7 +119,7 @@ TEST_F(RaysOfWalker, ThatGrazeNobodyStay) {
   for (GrazingRay& ray : far) ray.direction_W = Vector3::UnitZ();
   std::vector<Outline> borders = {far, {}};
   std::vector<BoundingEdge> edges;
-  RayMotion().BringToSet(motion_, edges, borders);
+  RayMotion().BringToSet(motion_, box_W_, edges, borders);
   for (std::size_t i = 0; i < far.size(); ++i)
     EXPECT_EQ(borders[0][i].direction_W, far[i].direction_W);
 }

@@ -120,7 +120,7 @@ TEST(SizeRefiner, ClothCountsLessThanTheLimbWithin) {
   const Evidence wide = studio.Show(BodyModel(table, trousers), pose);
   for (std::size_t i = 0; i < evidence.borders.size(); i += 2)
     evidence.borders[i] = wide.borders[i];
-  BoundingEdgeFinder().Find(wide.cloud, evidence.borders, wide.cloud.box_W(), evidence.edges);
+  FindBoundingEdges(wide.cloud, evidence.borders, wide.cloud.box_W(), evidence.edges);
   Objective objective;
   objective.SetEvidence(evidence);
   Hypothesis hypothesis(found, pose, true);
