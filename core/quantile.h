@@ -19,4 +19,8 @@ inline double QuantileOf(std::span<double> values, double share) {
 
 inline double MedianOf(std::span<double> values) { return QuantileOf(values, 0.5); }
 
+/// Ratio of the standard deviation to the median of the absolute values, for a normal distribution
+/// about 0.
+inline constexpr double kDeviationPerMedian = 1.4826;
+
 }  // namespace mocap

@@ -13,6 +13,7 @@
 #include <utility>
 
 #include "core/errors.h"
+#include "drivers/lowered.h"
 #include "drivers/take/input_file.h"
 
 namespace mocap {
@@ -134,9 +135,7 @@ void RequireWritable(const std::filesystem::path& file) {
 }
 
 void RequireSuffix(const std::filesystem::path& file, std::string_view suffix) {
-  std::string its = file.extension().string();
-  std::ranges::transform(its, its.begin(), [](unsigned char letter) { return std::tolower(letter); });
-  if (its == suffix) return;
+  if (Lowered(file.extension().string()) == suffix) return;
   throw SetupError(file.string() + ": does not end in " + std::string(suffix) +
                    ", the suffix of what is written");
 }

@@ -7,6 +7,7 @@
 
 #include "config/load_config.h"
 #include "core/errors.h"
+#include "drivers/lowered.h"
 #include "drivers/printable_text.h"
 #include "drivers/quoted.h"
 #include "drivers/take/input_file.h"

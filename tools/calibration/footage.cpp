@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "core/errors.h"
+#include "drivers/lowered.h"
 #include "drivers/quoted.h"
 #include "drivers/take/input_file.h"
 #include "drivers/take/take_layout.h"
@@ -19,7 +20,7 @@ namespace {
 namespace fs = std::filesystem;
 
 bool IsVideo(const fs::path& file) {
-  const std::string e = LowerExtension(file);
+  const std::string e = Lowered(file.extension().string());
   return e == ".mkv" || e == ".mp4" || e == ".avi" || e == ".mov" || e == ".m4v" || e == ".webm";
 }
 

@@ -8,6 +8,7 @@
 #include <set>
 
 #include "core/errors.h"
+#include "drivers/lowered.h"
 #include "drivers/nearest_name.h"
 #include "drivers/quoted.h"
 #include "drivers/take/calibration_file.h"

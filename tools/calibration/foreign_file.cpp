@@ -13,12 +13,6 @@
 
 namespace mocap {
 
-std::string Lowered(std::string text) {
-  std::transform(text.begin(), text.end(), text.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return text;
-}
-
 double FiniteNumber(std::string_view text, const std::string& where) {
   const std::string_view digits = text.substr(text.starts_with('+'));
   double number = 0;

@@ -76,9 +76,6 @@ class ForeignTable {
   ForeignFile::Place place_;
 };
 
-/// Returns a text in lower case, as far as it is ASCII.
-std::string Lowered(std::string text);
-
 /// Parses a number. @throws SetupError  beginning with `where`, when it is not a finite number.
 double FiniteNumber(std::string_view text, const std::string& where);
 

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "core/errors.h"
+#include "drivers/lowered.h"
 #include "drivers/quoted.h"
 #include "drivers/take/take_layout.h"
 
@@ -62,13 +63,6 @@ std::string ConvertText(std::string_view kind) {
 
 }  // namespace
 
-std::string LowerExtension(const fs::path& file) {
-  std::string text = file.extension().string();
-  std::ranges::transform(text, text.begin(),
-                         [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return text;
-}
-
 bool IsFolder(const fs::path& path) {
   std::error_code error;
   return fs::is_directory(path, error);
@@ -87,7 +81,7 @@ std::vector<fs::path> Listed(const fs::path& folder, bool (*wanted)(const fs::pa
 }
 
 bool IsPicture(const fs::path& file) {
-  return std::ranges::count(kReadExtensions, LowerExtension(file)) > 0;
+  return std::ranges::count(kReadExtensions, Lowered(file.extension().string())) > 0;
 }
 
 void RefuseUnreadPictures(const fs::path& folder) {
@@ -97,7 +91,7 @@ void RefuseUnreadPictures(const fs::path& folder) {
     const auto is_twin = [&](const fs::path& other) {
       return other.stem() == file.stem() && IsPicture(other);
     };
-    return !NameOf(kUnreadKinds, LowerExtension(file)).empty() &&
+    return !NameOf(kUnreadKinds, Lowered(file.extension().string())).empty() &&
            std::ranges::none_of(files, is_twin);
   };
   const auto first = std::ranges::find_if(files, is_unread);
@@ -105,7 +99,7 @@ void RefuseUnreadPictures(const fs::path& folder) {
   const auto others = std::ranges::count_if(first + 1, files.end(), is_unread);
   throw SetupError(first->string() +
                    (others > 0 ? " and " + std::to_string(others) + " more" : "") + ": " +
-                   ConvertText(NameOf(kUnreadKinds, LowerExtension(*first))));
+                   ConvertText(NameOf(kUnreadKinds, Lowered(first->extension().string()))));
 }
 
 void RefuseUnreadPicture(const fs::path& file) {
@@ -121,7 +115,7 @@ std::string WhatIsThere(const fs::path& folder) {
   folders.push_back(folder);
   std::map<std::string, int> counts;
   for (const fs::path& place : folders) {
-    for (const fs::path& file : Listed(place, IsFile)) ++counts[LowerExtension(file)];
+    for (const fs::path& file : Listed(place, IsFile)) ++counts[Lowered(file.extension().string())];
   }
   std::string text;
   for (const auto& [extension, count] : counts) {

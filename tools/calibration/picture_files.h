@@ -7,9 +7,6 @@
 
 namespace mocap {
 
-/// Returns a file's extension in lower case, with its dot.
-std::string LowerExtension(const std::filesystem::path& file);
-
 /// Returns whether a path is a folder that can be found.
 bool IsFolder(const std::filesystem::path& path);
 

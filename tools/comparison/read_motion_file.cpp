@@ -5,6 +5,7 @@
 
 #include "core/degrees.h"
 #include "core/errors.h"
+#include "drivers/lowered.h"
 #include "drivers/printable_text.h"
 #include "drivers/take/input_file.h"
 #include "drivers/take/take_layout.h"
@@ -120,12 +121,6 @@ MotionFile ReadTruthOf(const std::filesystem::path& take) {
   return read;
 }
 
-std::string SuffixOf(const std::filesystem::path& file) {
-  std::string suffix = file.extension().string();
-  for (char& c : suffix) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-  return suffix;
-}
-
 /// Whether a file begins as those of lcm-logger: with the sync word of the first event.
 bool IsLog(const std::filesystem::path& file) {
   constexpr std::string_view kSyncWord = "\xED\xA1\xDA\x01";
@@ -136,7 +131,7 @@ bool IsLog(const std::filesystem::path& file) {
 
 MotionFile ReadBySuffix(const std::filesystem::path& path,
                         const std::optional<std::string>& prefix) {
-  const std::string suffix = SuffixOf(path);
+  const std::string suffix = Lowered(path.extension().string());
   if (suffix == ".c3d") return ReadC3dMotion(path);
   if (suffix == ".trc") return ReadTrc(path);
   if (suffix == ".mot" || suffix == ".sto") return ReadMot(path);

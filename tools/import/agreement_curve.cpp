@@ -16,8 +16,6 @@ constexpr int kFewestMoments = 20;
 constexpr int kMomentsOfStep = 4;
 /// Tukey's biweight has 95 % of the efficiency of least squares (Holland and Welsch 1977).
 constexpr double kTukey = 4.685;
-/// From its scale to a normal distribution's standard deviation.
-constexpr double kOfMad = 1.4826;
 /// Silhouettes are not more exact than this [px].
 constexpr double kLeastScatter_px = 0.3;
 /// Neighbouring moments err alike, for about this long: limbs hidden, shadows.
@@ -103,7 +101,7 @@ std::optional<SideError> ErrorOf(const std::vector<float>& differences, double t
     return std::nullopt;
   SideError error{MedianOf(values), 0};
   for (double& value : values) value = std::abs(value - error.bias);
-  error.scatter = std::max(kOfMad * MedianOf(values), kLeastScatter_px);
+  error.scatter = std::max(kDeviationPerMedian * MedianOf(values), kLeastScatter_px);
   return error;
 }
 

@@ -5,17 +5,13 @@
 #include <optional>
 
 #include "core/errors.h"
+#include "drivers/lowered.h"
 #include "drivers/nearest_name.h"
 #include "drivers/quoted.h"
 #include "drivers/take/input_file.h"
 
 namespace mocap {
 namespace {
-
-std::string InLowerCase(std::string text) {
-  for (char& c : text) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-  return text;
-}
 
 bool IsOfName(char c) { return std::isalnum(static_cast<unsigned char>(c)) != 0; }
 
@@ -33,10 +29,10 @@ bool HasName(const std::string& text, const std::string& name) {
 std::vector<std::string> CamerasIn(const std::string& text,
                                    const std::vector<std::string>& cameras) {
   std::vector<std::string> found;
-  const std::string lowered = InLowerCase(text);
+  const std::string lowered = Lowered(text);
   for (const std::string& camera : cameras) {
-    if (InLowerCase(camera) == lowered) return {camera};
-    if (HasName(lowered, InLowerCase(camera))) found.push_back(camera);
+    if (Lowered(camera) == lowered) return {camera};
+    if (HasName(lowered, Lowered(camera))) found.push_back(camera);
   }
   return found;
 }

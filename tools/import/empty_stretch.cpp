@@ -20,8 +20,6 @@ constexpr double kPeople = 5;
 /// Noise of a cell, in times of its usual deviation; and what a codec adds [grey levels].
 constexpr double kBeyondNoise = 6;
 constexpr double kCodecNoise = 8;
-/// From the median deviation to a normal distribution's standard deviation.
-constexpr double kOfDeviation = 1.4826;
 
 int Brightness(const Bgr& color) { return color.b + color.g + color.r; }
 
@@ -61,7 +59,7 @@ std::vector<double> EmptyStretch::OccupiedShares() const {
     sorted = values;
     const double usual = MedianOf(sorted);
     for (double& value : sorted) value = std::abs(value - usual);
-    const double noise = kOfDeviation * MedianOf(sorted);
+    const double noise = kDeviationPerMedian * MedianOf(sorted);
     for (std::size_t i = 0; i < small_.size(); ++i)
       occupied[i] += std::abs(values[i] - usual) > kBeyondNoise * noise + 3 * kCodecNoise;
   }

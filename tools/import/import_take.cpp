@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <future>
+#include <functional>
 #include <thread>
 
 #include "config/camera_files.h"
@@ -26,6 +26,7 @@
 #include "drivers/utc_time.h"
 #include "tools/import/sampled_pictures.h"
 #include "tools/import/video_check.h"
+#include "tools/job_pool.h"
 #include "tools/stop_on_signals.h"
 
 namespace mocap {
@@ -40,26 +41,13 @@ void Tell(const std::string& what) {
   if (isatty(STDERR_FILENO)) std::fprintf(stderr, "%s\n", what.c_str());
 }
 
-/// Does the same for all cameras, as many at once as there are processors. If several fail, the
-/// first camera's error is thrown.
+/// Does the same for all cameras, as many at once as there are processors.
 template <typename Work>
 void ForEachCamera(std::vector<ImportedCamera>& cameras, const Work& work) {
-  const std::size_t most = std::max(1U, std::thread::hardware_concurrency());
-  std::exception_ptr failure;
-  for (std::size_t begin = 0; begin < cameras.size() && !failure; begin += most) {
-    std::vector<std::future<void>> running;
-    for (std::size_t i = begin; i < std::min(begin + most, cameras.size()); ++i)
-      running.push_back(
-          std::async(std::launch::async, [&work, &cameras, i] { work(cameras[i], i); }));
-    for (std::future<void>& one : running) {
-      try {
-        one.get();
-      } catch (...) {
-        if (!failure) failure = std::current_exception();
-      }
-    }
-  }
-  if (failure) std::rethrow_exception(failure);
+  std::vector<std::function<void()>> jobs;
+  for (std::size_t i = 0; i < cameras.size(); ++i)
+    jobs.emplace_back([&work, &cameras, i] { work(cameras[i], i); });
+  DoAll(jobs, static_cast<int>(std::thread::hardware_concurrency()));
 }
 
 TimedVideo TimedOf(const ImportedCamera& camera) {

@@ -31,7 +31,6 @@ struct ImportedCamera {
   bool has_variable_rate = false;
   CameraClock clock;
   RoomRecord room;
-  LightRange clip_light;                   ///< Of the clip, compared with the video.
   std::vector<std::int64_t> times_ns;      ///< Of its frames, in the take.
   double apart_ms = 0, most_apart_ms = 0;  ///< To the pictures of the fastest camera.
 };

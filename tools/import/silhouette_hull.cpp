@@ -47,26 +47,15 @@ std::vector<BorderPoint> BorderOf(const Silhouette& silhouette, const Lens& lens
   return border;
 }
 
-double Cross(const Vector2& a, const Vector2& b, const Vector2& c) {
-  return (b.x() - a.x()) * (c.y() - a.y()) - (b.y() - a.y()) * (c.x() - a.x());
-}
-
-/// Andrew's monotone chain (1979).
-std::vector<BorderPoint> ConvexHull(std::vector<BorderPoint> points) {
-  std::ranges::sort(points, [](const BorderPoint& a, const BorderPoint& b) {
-    return a.normalized.x() != b.normalized.x() ? a.normalized.x() < b.normalized.x()
-                                                : a.normalized.y() < b.normalized.y();
-  });
+std::vector<BorderPoint> ConvexHull(const std::vector<BorderPoint>& points) {
+  std::vector<cv::Point2f> places;
+  for (const BorderPoint& point : points)
+    places.emplace_back(static_cast<float>(point.normalized.x()),
+                        static_cast<float>(point.normalized.y()));
+  std::vector<int> corners;
+  if (!places.empty()) cv::convexHull(places, corners);
   std::vector<BorderPoint> hull;
-  const auto add = [&](const BorderPoint& point, std::size_t fewest) {
-    while (hull.size() > fewest &&
-           Cross(hull[hull.size() - 2].normalized, hull.back().normalized, point.normalized) <= 0)
-      hull.pop_back();
-    hull.push_back(point);
-  };
-  for (const BorderPoint& point : points) add(point, 1);
-  const std::size_t half = hull.size();
-  for (auto point = points.rbegin(); point != points.rend(); ++point) add(*point, half);
+  for (const int corner : corners) hull.push_back(points[static_cast<std::size_t>(corner)]);
   return hull;
 }
 

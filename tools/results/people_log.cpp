@@ -12,6 +12,7 @@
 #include "daemon/control/control_request.h"
 #include "daemon/messages/channel_name.h"
 #include "daemon/messages/decode_message.h"
+#include "drivers/lowered.h"
 #include "drivers/printable_text.h"
 #include "tools/results/channel_log.h"
 #include "tools/results/pose_log.h"
@@ -32,13 +33,6 @@ using People = std::map<std::int64_t, Person>;
 
 std::string NumberName(std::int64_t number) { return "person-" + std::to_string(number); }
 
-/// Some file systems ignore case in names.
-std::string WithoutCase(std::string name) {
-  std::ranges::transform(name, name.begin(),
-                         [](unsigned char letter) { return std::tolower(letter); });
-  return name;
-}
-
 /// Chooses names that can be files in one folder: each person's own name, or the number.
 std::map<std::int64_t, std::string> NamesOf(const People& people) {
   std::set<std::string> used;
@@ -46,7 +40,8 @@ std::map<std::int64_t, std::string> NamesOf(const People& people) {
   std::map<std::int64_t, std::string> names;
   for (const auto& [number, person] : people) {
     // Two people may have had the same name at different times.
-    const bool is_own = IsFileName(person.name) && used.insert(WithoutCase(person.name)).second;
+    // Some file systems ignore case in names.
+    const bool is_own = IsFileName(person.name) && used.insert(Lowered(person.name)).second;
     names[number] = is_own ? person.name : NumberName(number);
   }
   return names;

@@ -8,7 +8,7 @@
 
 #include "core/solving/path_smoother.h"
 #include "core/solving/take_sizes.h"
-#include "tools/solving/job_pool.h"
+#include "tools/job_pool.h"
 #include "tools/solving/linked_tracks.h"
 
 namespace mocap {

@@ -9,6 +9,7 @@
 #include "core/errors.h"
 #include "core/kernels/expected_pixels.h"
 #include "core/kernels/mixing.h"
+#include "core/quantile.h"
 #include "core/reconstruction/camera/sensor_plane_table.h"
 #include "core/reconstruction/silhouette/background_model.h"
 #include "core/reconstruction/silhouette/coarse_scan.h"
@@ -29,8 +30,6 @@ constexpr float kLeastSigma = 1.5f;
 // Slopes [grey levels per pixel]: flatter ones show noise alone, steeper ones shifts of contours.
 constexpr int kFlat = 4;
 constexpr int kSteep = 20;
-// Ratio of the standard deviation to the median, for absolute values of a normal distribution.
-constexpr float kDeviationPerMedian = 1.4826f;
 
 float Median(std::vector<float>& values) {
   if (values.empty()) return 0;
@@ -174,9 +173,10 @@ class PanTiltBackground final : public BackgroundModel {
         if (slope > kSteep) steep.push_back(difference / static_cast<float>(slope));
       }
     }
-    const float sigma = std::max(kDeviationPerMedian * Median(flat), kLeastSigma);
+    const float sigma =
+        std::max(static_cast<float>(kDeviationPerMedian) * Median(flat), kLeastSigma);
     variance_ = sigma * sigma;
-    shift_px_ = kDeviationPerMedian * Median(steep);
+    shift_px_ = static_cast<float>(kDeviationPerMedian) * Median(steep);
   }
 
   void LearnThresholds(double detection_rate) {

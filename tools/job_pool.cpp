@@ -1,4 +1,4 @@
-#include "tools/solving/job_pool.h"
+#include "tools/job_pool.h"
 
 #include <algorithm>
 #include <atomic>
