@@ -19,6 +19,7 @@
 #include "tools/track.h"
 #include "tools/view.h"
 #include "tools/watch.h"
+#include "tools/witness.h"
 
 namespace mocap {
 
@@ -27,6 +28,7 @@ void AddCommands(CLI::App& app) {
   AddTakeCommand(app);
   AddTrackCommand(app);
   AddSolveCommand(app);
+  AddWitnessCommand(app);
   AddEvaluateCommand(app);
   AddCompareCommand(app);
   AddGaitCommand(app);
