@@ -14,6 +14,7 @@
 #include "drivers/take/keypoint_table.h"
 #include "drivers/take/text_file.h"
 #include "tools/stop_on_signals.h"
+#include "tools/witness/self_test.h"
 #include "tools/witness/witness_take.h"
 
 namespace mocap {
@@ -28,6 +29,7 @@ void Witness(const WitnessOptions& options) {
   StopOnSignals();
   RequireWritable(options.out);
   PoseNetwork network(options.model);
+  RequireGoodAnswers(network, options.model);
   const Witnessed witnessed = WitnessTake(options.wanted, network);
   std::ostringstream text;
   WriteKeypoints(text, witnessed.views);
