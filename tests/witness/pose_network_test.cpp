@@ -136,7 +136,26 @@ TEST_F(TinyNetwork, HasNoPointsWithoutFiniteNumbers) {
   Write(graph.Model(), testing::kColorMapDescription);
   PoseNetwork network(file_);
   EXPECT_THAT(testing::SetupErrorOf([&] { RequireGoodAnswers(network, file_); }),
-              HasSubstr("gives numbers that are not finite"));
+              HasSubstr("numbers that are not finite"));
+}
+
+TEST_F(TinyNetwork, LeavesOutPointsThatAreFarOutside) {
+  testing::OnnxGraph graph;
+  graph.AddInput("picture", {1, 3, 32, 32});
+  graph.AddConstant("weights", {4, 3, 32, 32}, std::vector<float>(4 * 3 * 32 * 32, 0));
+  graph.AddConstant("bias", {4}, std::vector<float>{-31, 63, 1e30f, 0});
+  graph.AddNode("Conv", {"picture", "weights", "bias"}, "maps", {{"kernel_shape", {32, 32}}});
+  graph.AddOutput("maps", {1, 4, 1, 1});
+  Write(graph.Model(), testing::kColorMapDescription);
+  testing::ReplaceInFile(DescriptionBeside(file_), "heatmaps\"",
+                         "coordinates\"\ncolumns = [\"x\", \"y\"]");
+  PoseNetwork network(file_);
+  const Image<Bgr> picture(32, 32);
+  const std::vector<Keypoint> points =
+      network.Find(picture.view(), {.middle_px = {15.5, 15.5}, .width_px = 32, .height_px = 32});
+  ASSERT_EQ(points.size(), 1u);
+  EXPECT_EQ(points[0].landmark, Landmark::kNose);
+  EXPECT_LT((points[0].px - Eigen::Vector2f(-31.5f, 62.5f)).norm(), 1e-3);
 }
 
 TEST(BlazePose, FindsThePersonOfTheSelfTest) {

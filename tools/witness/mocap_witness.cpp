@@ -63,8 +63,7 @@ void Witness(const WitnessOptions& options) {
   std::printf("%s at people, %.0f ms each: %s\n", Counted(looks, "look").c_str(), each_ms,
               Printable(options.out.string()).c_str());
   if (witnessed.failed > 0)
-    TellRemarks("witness",
-                {"the network gave no finite numbers for " + Counted(witnessed.failed, "look")});
+    TellRemarks("witness", {"the network gave no points for " + Counted(witnessed.failed, "look")});
 }
 
 }  // namespace

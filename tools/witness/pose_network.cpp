@@ -247,6 +247,12 @@ class PoseNetwork::Impl {
     return DecodeCoordinates(values, network_.columns, network_.scores_are_logits);
   }
 
+  /// A point that is farther outside than the crop is large is no answer.
+  bool IsNearCrop(const Vector2& crop_px) const {
+    const Vector2 share = crop_px.cwiseQuotient(Vector2(network_.width_px, network_.height_px));
+    return (share.array() > -1).all() && (share.array() < 2).all();
+  }
+
   std::vector<Keypoint> KeypointsOf(const NamedOutputs& outputs, const CropMap& map) const {
     const bool are_probabilities =
         !network_.scores_are_logits || network_.kind == AnswerKind::kCoordinates;
@@ -256,7 +262,7 @@ class PoseNetwork::Impl {
     const std::vector<FoundPoint> found = Decode(outputs);
     std::vector<Keypoint> points;
     for (std::size_t i = 0; i < found.size(); ++i) {
-      if (!network_.landmarks[i]) continue;
+      if (!network_.landmarks[i] || !IsNearCrop(found[i].crop_px)) continue;
       const double score = are_probabilities ? found[i].score : Sigmoid(found[i].score);
       points.push_back({.landmark = *network_.landmarks[i],
                         .px = (map * found[i].crop_px).cast<float>(),

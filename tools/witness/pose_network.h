@@ -27,8 +27,8 @@ class PoseNetwork {
   const NetworkDescription& description() const;
 
   /// Finds the points of the person whom a region shows. Beyond the picture all is black.
-  /// @return  those that are landmarks, in the picture [px]. Empty: the network gave numbers that
-  /// are not finite.
+  /// @return  those that are landmarks and near the region, in the picture [px]. Empty: there are
+  /// none, or the network gave numbers that are not finite.
   std::vector<Keypoint> Find(ImageView<const Bgr> picture, const PictureRegion& region);
 
  private:

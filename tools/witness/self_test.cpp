@@ -100,7 +100,8 @@ void RequireGoodAnswers(PoseNetwork& network, const std::filesystem::path& model
   const std::vector<Keypoint> found = network.Find(known.picture.view(), region);
   const std::vector<Keypoint> moved = network.Find(known.picture.view(), elsewhere);
   if (found.empty() || moved.empty())
-    throw SetupError(model.string() + ": gives numbers that are not finite");
+    throw SetupError(model.string() +
+                     ": finds no points in a picture of a person, or numbers that are not finite");
   RequireJoints(found, known, region.height_px, model.string());
   RequireThatTheyMove(found, moved, region.height_px, model.string());
 }

@@ -22,7 +22,7 @@ struct WitnessedTake {
 /// What was found, and what it took.
 struct Witnessed {
   std::vector<KeypointView> views;  ///< Sorted by time, camera and person.
-  std::size_t failed = 0;           ///< Looks for which the network gave no finite numbers.
+  std::size_t failed = 0;           ///< Looks for which the network gave no points.
   double network_s = 0;             ///< Time that the network took.
 };
 
