@@ -55,6 +55,7 @@ class Hearing {
     lcm.subscribe(prefix + kPeopleChannel, &Hearing::OnPeople, this);
     lcm.subscribe(prefix + kStatusChannel, &Hearing::OnStatus, this);
     lcm.subscribe(prefix + kServiceChannel, &Hearing::OnService, this);
+    lcm.subscribe(prefix + kKeypointSendersChannel, &Hearing::OnKeypointSenders, this);
   }
 
   /// Removes what is older than the window.
@@ -123,6 +124,10 @@ class Hearing {
   }
   void OnService(const lcm::ReceiveBuffer* buffer, const std::string&) {
     if (const auto service = Heard<service_t>(buffer)) TakeService(*service, report_);
+  }
+  void OnKeypointSenders(const lcm::ReceiveBuffer* buffer, const std::string&) {
+    if (const auto senders = Heard<keypoint_senders_t>(buffer))
+      TakeKeypointSenders(*senders, report_);
   }
   template <typename Message>
   std::optional<Message> Heard(const lcm::ReceiveBuffer* buffer) {
@@ -218,6 +223,8 @@ std::string Page(const Hearing& hearing, const std::string& url) {
   const ServiceReport& report = hearing.report();
   if (report.people.size() > 1)
     page += '\n' + TableOf(PersonFields(), PeopleOf(report), Shown::kInWatch);
+  if (!report.keypoints.senders.empty())
+    page += '\n' + TableOf(KeypointFields(), report.keypoints.senders, Shown::kInWatch);
   if (report.told) page += ConclusionText(report);
   if (report.recording.state == RecordingStatus::State::kRunning) page += RunningText(report);
   if (hearing.HasStatus() && report.told)

@@ -15,6 +15,8 @@ inline constexpr const char* kStatusChannel = "MOCAP_STATUS";
 inline constexpr const char* kServiceChannel = "MOCAP_SERVICE";
 inline constexpr const char* kContrastChannel = "MOCAP_CONTRAST";
 inline constexpr const char* kBodiesChannel = "MOCAP_BODIES";
+inline constexpr const char* kKeypointsChannel = "MOCAP_KEYPOINTS";
+inline constexpr const char* kKeypointSendersChannel = "MOCAP_KEYPOINT_SENDERS";
 
 /// LCM treats the channel of a subscription as a regular expression, where a dot matches anything.
 /// Returns a pattern that matches exactly this text.

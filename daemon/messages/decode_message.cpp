@@ -218,6 +218,33 @@ bool HasSoundCounts(const silhouette_t&, std::span<const std::uint8_t> bytes) {
   return skimmer.sound();
 }
 
+bool HasSoundCounts(const keypoints_t&, std::span<const std::uint8_t> bytes) {
+  Skimmer skimmer(bytes);
+  skimmer.Skip(kHash + 4);
+  // Sender, camera.
+  skimmer.Texts(2);
+  skimmer.Skip(kNumber + 4);
+  const std::size_t points = skimmer.Count(kLeastText + kPoint);
+  for (std::size_t i = 0; skimmer.sound() && i < points; ++i) {
+    skimmer.Text();
+    skimmer.Skip(kPoint);
+  }
+  return skimmer.sound();
+}
+
+bool HasSoundCounts(const keypoint_senders_t&, std::span<const std::uint8_t> bytes) {
+  Skimmer skimmer(bytes);
+  skimmer.Skip(kHash + kNumber);
+  const std::size_t senders = skimmer.Count(kLeastText + 5 * kNumber);
+  skimmer.Texts(senders);
+  skimmer.Skip(5 * kNumber * senders);
+  const std::size_t reasons = skimmer.Count(kLeastText);
+  skimmer.Texts(reasons);
+  // Neither is more than the message has bytes, so the product does not overflow.
+  skimmer.Skip(kNumber * senders * reasons);
+  return skimmer.sound();
+}
+
 bool HasSoundCounts(const node_t&, std::span<const std::uint8_t> bytes) {
   Skimmer skimmer(bytes);
   skimmer.Skip(kHash + 2 * kNumber);

@@ -5,6 +5,8 @@
 #include <limits>
 #include <mocap/body_t.hpp>
 #include <mocap/contrast_t.hpp>
+#include <mocap/keypoint_senders_t.hpp>
+#include <mocap/keypoints_t.hpp>
 #include <mocap/node_t.hpp>
 #include <mocap/people_t.hpp>
 #include <mocap/person_body_t.hpp>
@@ -37,6 +39,8 @@ bool HasSoundCounts(const preview_t& kind, std::span<const std::uint8_t> bytes);
 bool HasSoundCounts(const unknown_t& kind, std::span<const std::uint8_t> bytes);
 bool HasSoundCounts(const voxels_t& kind, std::span<const std::uint8_t> bytes);
 bool HasSoundCounts(const silhouette_t& kind, std::span<const std::uint8_t> bytes);
+bool HasSoundCounts(const keypoints_t& kind, std::span<const std::uint8_t> bytes);
+bool HasSoundCounts(const keypoint_senders_t& kind, std::span<const std::uint8_t> bytes);
 bool HasSoundCounts(const node_t& kind, std::span<const std::uint8_t> bytes);
 
 /// Decodes a message; empty if it is not a valid one of this type.

@@ -20,6 +20,7 @@ PosePublisher::PosePublisher(lcm::LCM& lcm, const LcmConfig& config, int cameras
       status_channel_(config.prefix + kStatusChannel),
       service_channel_(config.prefix + kServiceChannel),
       contrast_channel_(config.prefix + kContrastChannel),
+      keypoint_senders_channel_(config.prefix + kKeypointSendersChannel),
       studio_channel_(config.prefix + "MOCAP_STUDIO"),
       cameras_(cameras),
       times_(times),
@@ -105,6 +106,8 @@ void PosePublisher::PublishStatus(const ServiceReport& report) {
   sender_.Send(service_channel_, service_, status_bytes_);
   FillContrast(report, utime, contrast_);
   sender_.Send(contrast_channel_, contrast_, status_bytes_);
+  FillKeypointSenders(report, utime, keypoint_senders_);
+  sender_.Send(keypoint_senders_channel_, keypoint_senders_, status_bytes_);
   if (studio_.calibration.empty()) return;
   studio_.utime = utime;
   sender_.Send(studio_channel_, studio_, status_bytes_);

@@ -62,7 +62,7 @@ class PosePublisher : public PoseSink {
   std::vector<std::uint8_t> status_bytes_;
   const std::string pose_channel_, body_channel_, people_channel_, bodies_channel_,
       details_channel_, voxels_channel_, status_channel_, service_channel_, contrast_channel_,
-      studio_channel_;
+      keypoint_senders_channel_, studio_channel_;
   const int cameras_;
   const CaptureTimes times_;
   Pacer body_pacer_;
@@ -80,6 +80,7 @@ class PosePublisher : public PoseSink {
   status_t status_;
   service_t service_;
   contrast_t contrast_;
+  keypoint_senders_t keypoint_senders_;
   studio_t studio_;
 };
 

@@ -6,6 +6,7 @@
 #include <concepts>
 
 #include "core/people/people_capture.h"
+#include "daemon/pipeline/keypoint_inbox.h"
 #include "daemon/status/diagnostics.h"
 #include "drivers/printable_text.h"
 
@@ -118,6 +119,16 @@ void PassService(Way way, Report& report, Message& message) {
   way(report.recording.dropped, message.recording_dropped);
 }
 
+/// Likewise of one of the senders in keypoint_senders_t, except why it was refused.
+template <typename Way, typename Sender, typename Message>
+void PassKeypointSender(Way way, Sender& sender, Message& message, std::size_t i) {
+  way(sender.name, message.name[i]);
+  way(sender.views_per_second, message.views_per_second[i]);
+  way(sender.lag_ms, message.lag_ms[i]);
+  way(sender.taken, message.taken[i]);
+  way(sender.dropped_points, message.dropped_points[i]);
+}
+
 }  // namespace
 
 void FillStatus(const ServiceReport& report, std::int64_t utime, status_t& message) {
@@ -156,6 +167,25 @@ void FillContrast(const ServiceReport& report, std::int64_t utime, contrast_t& m
   message.num_cameras = static_cast<std::int32_t>(message.camera.size());
 }
 
+void FillKeypointSenders(const ServiceReport& report, std::int64_t utime,
+                         keypoint_senders_t& message) {
+  const std::vector<KeypointSender>& senders = report.keypoints.senders;
+  message.utime = utime;
+  message.num_senders = static_cast<std::int32_t>(senders.size());
+  message.name.resize(senders.size());
+  for (auto* list : {&message.views_per_second, &message.lag_ms, &message.agreement})
+    list->resize(senders.size());
+  for (auto* list : {&message.taken, &message.dropped_points}) list->resize(senders.size());
+  message.num_reasons = kKeypointRefusalCount;
+  message.reason.assign(kKeypointRefusalNames.begin(), kKeypointRefusalNames.end());
+  message.refused.resize(senders.size());
+  for (std::size_t i = 0; i < senders.size(); ++i) {
+    PassKeypointSender(ToMessage(), senders[i], message, i);
+    message.agreement[i] = senders[i].agreement.value_or(-1);
+    message.refused[i].assign(senders[i].refused.begin(), senders[i].refused.end());
+  }
+}
+
 void TakeStatus(const status_t& message, ServiceReport& report) {
   PassStatus(FromMessage(), report, message);
 }
@@ -172,6 +202,21 @@ void TakeService(const service_t& message, ServiceReport& report) {
     way(cameras[i].health.overlap, message.camera_trust[i]);
     way(cameras[i].health.shift_px.x(), message.camera_off_px[i]);
     cameras[i].health.moments = cameras[i].health.overlap < 0 ? 0 : HealthWatch::kFewestMoments;
+  }
+}
+
+void TakeKeypointSenders(const keypoint_senders_t& message, ServiceReport& report) {
+  std::vector<KeypointSender>& senders = report.keypoints.senders;
+  senders.assign(std::min(KeypointInbox::kMostSenders, message.name.size()), {});
+  for (std::size_t i = 0; i < senders.size(); ++i) {
+    PassKeypointSender(FromMessage(), senders[i], message, i);
+    if (message.agreement[i] >= 0) senders[i].agreement = std::min(message.agreement[i], 1.0);
+    for (std::size_t j = 0; j < message.reason.size(); ++j) {
+      const auto known = std::ranges::find(kKeypointRefusalNames, message.reason[j]);
+      if (known == kKeypointRefusalNames.end()) continue;
+      senders[i].refused[static_cast<std::size_t>(known - kKeypointRefusalNames.begin())] =
+          message.refused[i][j];
+    }
   }
 }
 

@@ -12,6 +12,7 @@
 #include "core/reconstruction/silhouette/segmenter.h"
 #include "daemon/pipeline/camera_status.h"
 #include "daemon/pipeline/frame_progress.h"
+#include "daemon/pipeline/keypoint_source.h"
 #include "daemon/pipeline/people_watch.h"
 #include "daemon/pipeline/pose_sink.h"
 #include "daemon/pipeline/silhouette_source.h"
@@ -48,6 +49,8 @@ struct PipelineOptions {
   std::vector<std::deque<FrameTap>*> taps = {};
   /// Recipient of previews, likewise; null: none.
   std::deque<PreviewTap>* previews = nullptr;
+  /// Keypoints that count beside the silhouettes. Borrowed for the pipeline's life; null: none.
+  KeypointSource* keypoints = nullptr;
   /// Opens cameras without a driver here.
   OpenElsewhere elsewhere = nullptr;
   /// Learning is abandoned when this becomes true. Borrowed; null: never.

@@ -6,6 +6,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <cmath>
 #include <stdexcept>
@@ -61,6 +62,10 @@ TakeDescription DescriptionOf(const std::filesystem::path& folder, const Recordi
     description.cameras.push_back(camera.calibration);
   }
   return description;
+}
+
+std::array<MessageTap*, 2> MessageTapsOf(RecordingTaps& taps) {
+  return {&taps.messages, &taps.received};
 }
 
 /// Checks before anything is created.
@@ -171,7 +176,7 @@ void Recording::Begin() {
                          lines_[i]->bell);
     lines_[i]->coder.tap = &taps_.frames[i];
   }
-  taps_.messages.Open(kMessagesQueued, {}, keeper_bell_);
+  for (MessageTap* tap : MessageTapsOf(taps_)) tap->Open(kMessagesQueued, {}, keeper_bell_);
   std::vector<Coder*> coders;
   for (const auto& line : lines_) coders.push_back(&line->coder);
   watch_.emplace(std::move(coders), can_return_);
@@ -279,14 +284,14 @@ void Recording::RunKeeper() {
   pthread_setname_np(pthread_self(), "rec keeper");
   Guard([&] { KeepUntilStopped(); });
   End();
-  taps_.messages.Close();
+  for (MessageTap* tap : MessageTapsOf(taps_)) tap->Close();
   for (FrameTap& tap : taps_.frames) tap.Close();
   EndWatch();
   Guard([&] { WriteMessages(); });
   for (const auto& line : lines_) line->coder.thread.join();
   Complete();
   for (FrameTap& tap : taps_.frames) tap.Free();
-  taps_.messages.Free();
+  for (MessageTap* tap : MessageTapsOf(taps_)) tap->Free();
   GiveBackFreeMemory();
 }
 
@@ -312,10 +317,12 @@ void Recording::KeepUntilStopped() {
 }
 
 void Recording::WriteMessages() {
-  while (taps_.messages.queue().TryPop()) {
-    TappedMessage& message = taps_.messages.queue().front();
-    message.utime += time_of_day_ahead_ns_ / 1000;
-    log_->Write(message);
+  for (MessageTap* tap : MessageTapsOf(taps_)) {
+    while (tap->queue().TryPop()) {
+      TappedMessage& message = tap->queue().front();
+      message.utime += time_of_day_ahead_ns_ / 1000;
+      log_->Write(message);
+    }
   }
   log_->Flush();
 }

@@ -47,6 +47,7 @@ struct RecordedStudio {
 struct RecordingTaps {
   std::deque<FrameTap> frames;
   MessageTap messages;
+  MessageTap received;  ///< Messages of clients, offered by the thread that receives them.
 };
 
 /// The status of a current or past recording.

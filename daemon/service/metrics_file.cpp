@@ -49,6 +49,7 @@ std::string CameraLabel(const ReportedCamera& camera) {
 std::string StageLabel(const StageTiming& timing) {
   return fmt::format("stage=\"{}\"", NameOf(timing.stage));
 }
+std::string SenderLabel(const KeypointSender& sender) { return "sender=" + JsonText(sender.name); }
 std::string NoLabel(const ServiceReport&) { return {}; }
 
 }  // namespace
@@ -58,6 +59,7 @@ std::string MetricsText(const ServiceReport& report) {
   AddMetrics(ServiceFields(), std::span(&report, 1), NoLabel, text);
   AddMetrics(StageFields(), report.now.recent.all, StageLabel, text);
   AddMetrics(CameraFields(), CamerasOf(report), CameraLabel, text);
+  AddMetrics(KeypointFields(), report.keypoints.senders, SenderLabel, text);
   return text;
 }
 

@@ -17,6 +17,7 @@
 #include "daemon/base/service_folders.h"
 #include "daemon/control/control_socket.h"
 #include "daemon/messages/channel_watch.h"
+#include "daemon/messages/client_listener.h"
 #include "daemon/messages/pose_publisher.h"
 #include "daemon/messages/preview_publisher.h"
 #include "daemon/nodes/node_listener.h"
@@ -181,20 +182,28 @@ struct Recipients {
   std::optional<Outlet> outlet;
 };
 
-/// What a node and its studio send each other. Empty where all cameras are local.
+/// What a node and its studio send each other, which is empty where all cameras are local, and what
+/// clients send.
 struct Partners {
   Partners(const Config& config, const Studio& studio, Recipients& recipients) {
     if (config.role == Role::kStudio) nodes.emplace(config, recipients.cameras);
-    if (config.role != Role::kNode) return;
+    if (config.role != Role::kNode) {
+      clients.emplace(config.lcm, recipients.cameras, studio.times, keypoints,
+                      recipients.recorder.taps().received);
+      return;
+    }
     silhouettes.emplace(recipients.publisher.sender(), config, recipients.cameras);
     studio_listener.emplace(config.lcm, NamesOf(recipients.cameras), studio.person);
   }
 
   void Listen() {
     if (nodes) nodes->Listen();
+    if (clients) clients->Listen();
     if (studio_listener) studio_listener->Listen();
   }
 
+  KeypointInbox keypoints;
+  std::optional<ClientListener> clients;          ///< Not of a node.
   std::optional<NodeListener> nodes;              ///< Of a studio.
   std::optional<SilhouetteSender> silhouettes;    ///< Of a node.
   std::optional<StudioListener> studio_listener;  ///< Of a node.
@@ -212,6 +221,7 @@ PipelineOptions OptionsFor(const Config& config, Recipients& recipients, Learnin
   PipelineOptions options = PipelineOptionsFor(
       config, {&recipients.recorder.taps().frames, &taps.background, &taps.furniture});
   options.previews = &recipients.preview->taps();
+  options.keypoints = &partners.keypoints;
   options.stop = &signals.stop();
   if (partners.nodes) {
     options.elsewhere = [&partners](const auto& camera, int rays) {
@@ -284,10 +294,11 @@ void Run(LiveConfig& live, const ServiceLog& log, StopSignals& signals,
                            to.view, to.recorder, learner,  occupied};
   ServiceControl control(parts, Subjects(StateFolder() / "subjects"));
   FurnitureLooks furniture(*path, taps.furniture, to.known, learning.cameras);
-  Watch watch(parts,
-              {control, manager, to.channels, log, furniture, PointerTo(partners.nodes),
-               PointerTo(partners.silhouettes), PointerTo(partners.studio_listener)},
-              about);
+  Watch watch(
+      parts,
+      {control, manager, to.channels, log, furniture, partners.keypoints, PointerTo(partners.nodes),
+       PointerTo(partners.silhouettes), PointerTo(partners.studio_listener)},
+      about);
   const OpenDesk open_desk(desk, control);
   spdlog::info("publishing on {}", config.lcm.url);
   signals.Allow(kEndPatience, false);

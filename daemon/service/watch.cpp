@@ -100,6 +100,7 @@ void Watch::Report(const PipelineStatus& status) {
   report_.log_fails = around_.log.Fails(SteadyNs());
   if (around_.nodes) report_.nodes = around_.nodes->Report();
   if (around_.studio) report_.link = around_.studio->Link(SteadyNs());
+  report_.keypoints = around_.keypoints.Report(SteadyNs());
   report_.moved = around_.furniture.Moved();
   LookAtClock();
   LookAtStudio(status);

@@ -13,6 +13,7 @@
 #include "daemon/nodes/silhouette_sender.h"
 #include "daemon/nodes/studio_listener.h"
 #include "daemon/pipeline/frame_progress.h"
+#include "daemon/pipeline/keypoint_inbox.h"
 #include "daemon/pipeline/pacer.h"
 #include "daemon/service/change_log.h"
 #include "daemon/service/clock_watch.h"
@@ -35,6 +36,7 @@ struct WatchParts {
   const ChannelWatch& channels;
   const ServiceLog& log;
   const FurnitureLooks& furniture;
+  const KeypointInbox& keypoints;
   NodeListener* nodes;            ///< At a studio; otherwise null.
   SilhouetteSender* silhouettes;  ///< At a node; otherwise null.
   StudioListener* studio;         ///< Likewise.

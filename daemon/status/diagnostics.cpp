@@ -266,6 +266,16 @@ void ComplainOfFurniture(const ServiceReport& report, List& list) {
   }
 }
 
+void ComplainOfKeypoints(const ServiceReport& report, List& list) {
+  for (const KeypointSender& sender : report.keypoints.senders) {
+    if (sender.agreement.value_or(1) >= kLeastAgreement) continue;
+    list.push_back(fmt::format(
+        "keypoints of {} disagree with the poses (agreement {:.0f} %): check its times, "
+        "its cameras, and which side it calls left",
+        sender.name, 100 * *sender.agreement));
+  }
+}
+
 void ComplainOfTime(const ServiceReport& report, List& list) {
   if (report.now.sets_dropped_lately > 0) {
     list.push_back(
@@ -306,6 +316,7 @@ std::vector<std::string> Diagnostics(const ServiceReport& report) {
   ComplainOfPlace(report.now.status, list);
   ComplainOfLight(report, list);
   ComplainOfFurniture(report, list);
+  ComplainOfKeypoints(report, list);
   ComplainOfTime(report, list);
   return list;
 }

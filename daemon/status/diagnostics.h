@@ -10,6 +10,8 @@ namespace mocap {
 
 /// The stance of a person cannot explain a larger silhouette shift.
 inline constexpr double kMostShift_px = 2;
+/// A sender of keypoints that agrees less with the poses is reported.
+inline constexpr double kLeastAgreement = 0.5;
 
 /// Lists faults and their remedies, the worst first; empty if all is good. docs/operating.md
 /// explains each line.

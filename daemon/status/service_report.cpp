@@ -144,6 +144,7 @@ std::string ReportText(const ServiceReport& report) {
   text += Line("background", MadeText(report.background, report.epoch_s)) + '\n';
   return text + Paragraph(PersonFields(), PeopleOf(report)) +
          Paragraph(NodeFields(), report.nodes.nodes) +
+         Paragraph(KeypointFields(), report.keypoints.senders) +
          TableOf(CameraFields(), CamerasOf(report), Shown::kInStatus);
 }
 

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "daemon/pipeline/keypoint_status.h"
 #include "daemon/recording/cut_off_takes.h"
 #include "daemon/recording/recording.h"
 #include "daemon/status/channel_status.h"
@@ -71,6 +72,7 @@ struct ServiceReport {
   std::string node;                ///< The name of this node; empty: not a node.
   std::optional<StudioLink> link;  ///< Of a node with its studio.
   NodesReport nodes;               ///< A studio's nodes.
+  KeypointsReport keypoints;
   /// Diagnostics of the mocapd that sent this report; empty: it is of this one.
   std::optional<std::vector<std::string>> told;
 };

@@ -188,6 +188,42 @@ constexpr StatusField<NodeReport> kNodeFields[] = {
     Field<NodeReport>("version", Get<&NodeReport::version>, 0, {"version"}),
 };
 
+// Senders of keypoints.
+
+Json RefusedInAll(const KeypointSender& sender) { return sender.RefusedInAll(); }
+template <KeypointRefusal reason>
+Json Refused(const KeypointSender& sender) {
+  return sender.refused[static_cast<std::size_t>(reason)];
+}
+
+constexpr StatusField<KeypointSender> kKeypointFields[] = {
+    Field<KeypointSender>("name", Get<&KeypointSender::name>, 0, {"keypoints of", -16}),
+    Field<KeypointSender>("views_per_second", Get<&KeypointSender::views_per_second>, 2,
+                          {"a second", 10, 1},
+                          {"keypoint_views_per_second", "People in pictures, lately."}),
+    Field<KeypointSender>("lag_ms", Get<&KeypointSender::lag_ms>, 1, {"lag ms", 10, 0},
+                          {"keypoint_lag_seconds", "From capture to arrival.", "", 1e-3}),
+    Field<KeypointSender>("taken", Get<&KeypointSender::taken>, 0, {"taken", 10},
+                          {"keypoint_views_total", "Views taken."}),
+    Field<KeypointSender>("", RefusedInAll, 0, {"refused", 10}),
+    Field<KeypointSender>("refused_invalid", Refused<KeypointRefusal::kInvalid>, 0, {},
+                          {"keypoint_refused_total", "Views refused.", "reason=\"invalid\""}),
+    Field<KeypointSender>("refused_camera", Refused<KeypointRefusal::kCamera>, 0, {},
+                          {"keypoint_refused_total", "", "reason=\"camera\""}),
+    Field<KeypointSender>("refused_old", Refused<KeypointRefusal::kOld>, 0, {},
+                          {"keypoint_refused_total", "", "reason=\"old\""}),
+    Field<KeypointSender>("refused_ahead", Refused<KeypointRefusal::kAhead>, 0, {},
+                          {"keypoint_refused_total", "", "reason=\"ahead\""}),
+    Field<KeypointSender>("refused_empty", Refused<KeypointRefusal::kEmpty>, 0, {},
+                          {"keypoint_refused_total", "", "reason=\"empty\""}),
+    Field<KeypointSender>("refused_full", Refused<KeypointRefusal::kFull>, 0, {},
+                          {"keypoint_refused_total", "", "reason=\"full\""}),
+    Field<KeypointSender>("dropped_points", Get<&KeypointSender::dropped_points>),
+    Field<KeypointSender>("agreement", Get<&KeypointSender::agreement>, 3, Percent("agrees", 10),
+                          {"keypoint_agreement_ratio", "Agreement with the poses."},
+                          Has<&KeypointSender::agreement>, kLeastAgreement),
+};
+
 // Parts of the service.
 
 constexpr StatusField<StageTiming> kStageFields[] = {
@@ -300,6 +336,10 @@ constexpr StatusField<ServiceReport> kServiceFields[] = {
     Field<ServiceReport>("cameras", Cameras),
     Field<ServiceReport>("node", Get<&ServiceReport::node>),
     Field<ServiceReport>("nodes", List<&kNodeFields, &ServiceReport::nodes, &NodesReport::nodes>),
+    Field<ServiceReport>(
+        "keypoints", List<&kKeypointFields, &ServiceReport::keypoints, &KeypointsReport::senders>),
+    Field<ServiceReport>("keypoints_of_strangers",
+                         Get<&ServiceReport::keypoints, &KeypointsReport::strangers>),
     Field<ServiceReport>("calibration", Whole<&kMadeFields, &ServiceReport::calibration>),
     Field<ServiceReport>("background", Whole<&kMadeFields, &ServiceReport::background>),
     Field<ServiceReport>("moved", List<&kMovedFields, &ServiceReport::moved>),
@@ -330,6 +370,7 @@ std::span<const StatusField<ServiceReport>> ServiceFields() { return kServiceFie
 std::span<const StatusField<ReportedCamera>> CameraFields() { return kCameraFields; }
 std::span<const StatusField<ReportedPerson>> PersonFields() { return kPersonFields; }
 std::span<const StatusField<NodeReport>> NodeFields() { return kNodeFields; }
+std::span<const StatusField<KeypointSender>> KeypointFields() { return kKeypointFields; }
 std::span<const StatusField<StageTiming>> StageFields() { return kStageFields; }
 
 std::string_view NameOf(CaptureState state) { return NameIn(kCaptureStateNames, state); }

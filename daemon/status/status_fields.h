@@ -30,6 +30,7 @@ std::span<const StatusField<ServiceReport>> ServiceFields();
 std::span<const StatusField<ReportedCamera>> CameraFields();
 std::span<const StatusField<ReportedPerson>> PersonFields();
 std::span<const StatusField<NodeReport>> NodeFields();
+std::span<const StatusField<KeypointSender>> KeypointFields();
 std::span<const StatusField<StageTiming>> StageFields();
 
 /// Names of what a message tells as a number, which may be none of them.

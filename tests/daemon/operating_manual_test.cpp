@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <regex>
 #include <set>
 #include <sstream>
@@ -11,6 +12,7 @@
 
 #include "daemon/status/diagnostics.h"
 #include "daemon/status/service_report.h"
+#include "daemon/status/status_fields.h"
 #include "tests/support/temporary_folder.h"
 
 namespace mocap {
@@ -91,6 +93,8 @@ std::vector<std::string> EveryComplaint() {
   report.cut_off = {{"/takes/walk-01.partial", 12'300'000'000, 45'296'000'000'000}};
   report.light_change = LightChange{.time_ns = 1, .cameras = {"cam1"}, .factor = 1.4};
   report.moved = {{"cam3", "bottom left, x 8 to 39, y 80 to 111 px", 0.023, 720'000'000'000}};
+  report.keypoints.senders.emplace_back().name = "witness";
+  report.keypoints.senders.back().agreement = 0.3;
   StageRecorders recorders;
   recorders[Stage::kSpread].Record(15'000'000);
   report.now.recent = StageHistograms(recorders);
@@ -184,6 +188,14 @@ TEST(OperatingManual, ExplainsEveryColumnOfPeople) {
     }
   }
   EXPECT_EQ(header.find_first_not_of(' '), std::string::npos) << header;
+}
+
+TEST(OperatingManual, ExplainsEveryColumnOfKeypoints) {
+  const std::vector<std::string> columns = FirstColumns();
+  for (const auto& field : KeypointFields()) {
+    if (field.column.heading.empty()) continue;
+    EXPECT_TRUE(std::ranges::count(columns, field.column.heading)) << field.column.heading;
+  }
 }
 
 TEST(OperatingManual, TellsOfNoComplaintThatIsNot) {

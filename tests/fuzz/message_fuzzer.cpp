@@ -16,5 +16,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   mocap::DecodeMessage<mocap::voxels_t>(bytes);
   mocap::DecodeMessage<mocap::silhouette_t>(bytes);
   mocap::DecodeMessage<mocap::node_t>(bytes);
+  mocap::DecodeMessage<mocap::keypoints_t>(bytes);
+  mocap::DecodeMessage<mocap::keypoint_senders_t>(bytes);
   return 0;
 }

@@ -89,6 +89,7 @@ LiveFeed::LiveFeed(lcm::LCM& lcm, const std::string& prefix, std::string url, Pu
   lcm.subscribe(named + "MOCAP_STATUS", &LiveFeed::OnStatus, this);
   lcm.subscribe(named + kServiceChannel, &LiveFeed::OnService, this);
   lcm.subscribe(named + kContrastChannel, &LiveFeed::OnContrast, this);
+  lcm.subscribe(named + kKeypointSendersChannel, &LiveFeed::OnKeypointSenders, this);
   lcm.subscribe(named + "MOCAP_STUDIO", &LiveFeed::OnStudio, this);
   lcm.subscribe(named + "MOCAP_UNKNOWN", &LiveFeed::OnUnknown, this);
   lcm.subscribe(named + "MOCAP_PREVIEW", &LiveFeed::OnPreview, this);
@@ -199,6 +200,11 @@ void LiveFeed::OnService(const lcm::ReceiveBuffer* buffer, const std::string&) {
 
 void LiveFeed::OnContrast(const lcm::ReceiveBuffer* buffer, const std::string&) {
   if (auto contrast = Decoded<contrast_t>(*buffer)) contrast_ = std::move(*contrast);
+}
+
+void LiveFeed::OnKeypointSenders(const lcm::ReceiveBuffer* buffer, const std::string&) {
+  if (const auto senders = Decoded<keypoint_senders_t>(*buffer))
+    TakeKeypointSenders(*senders, report_);
 }
 
 void LiveFeed::OnStudio(const lcm::ReceiveBuffer* buffer, const std::string&) {

@@ -64,6 +64,7 @@ class LiveFeed {
   void OnStatus(const lcm::ReceiveBuffer* buffer, const std::string& channel);
   void OnService(const lcm::ReceiveBuffer* buffer, const std::string& channel);
   void OnContrast(const lcm::ReceiveBuffer* buffer, const std::string& channel);
+  void OnKeypointSenders(const lcm::ReceiveBuffer* buffer, const std::string& channel);
   void OnStudio(const lcm::ReceiveBuffer* buffer, const std::string& channel);
   void OnUnknown(const lcm::ReceiveBuffer* buffer, const std::string& channel);
   void OnPreview(const lcm::ReceiveBuffer* buffer, const std::string& channel);

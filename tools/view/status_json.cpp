@@ -24,6 +24,8 @@ std::string StatusJson(const ServiceReport& report) {
   const std::vector<ReportedCamera> cameras = CamerasOf(report);
   for (std::size_t i = 0; i < cameras.size(); ++i)
     Judge(CameraFields(), cameras[i], json["cameras"][i]);
+  for (std::size_t i = 0; i < report.keypoints.senders.size(); ++i)
+    Judge(KeypointFields(), report.keypoints.senders[i], json["keypoints"][i]);
   return JsonText(json);
 }
 

@@ -148,6 +148,31 @@ voxels_t SomeVoxels() {
   return voxels;
 }
 
+keypoints_t SomeKeypoints() {
+  keypoints_t keypoints{};
+  keypoints.version = keypoints_t::VERSION;
+  keypoints.sender = "witness";
+  keypoints.camera = "cam1";
+  keypoints.num_points = 2;
+  keypoints.points = {{"nose", 1, 2, 0.5}, {"hip_l", 3, 4, 1}};
+  return keypoints;
+}
+
+keypoint_senders_t SomeKeypointSenders() {
+  keypoint_senders_t senders{};
+  senders.num_senders = 1;
+  senders.name = {"witness"};
+  senders.views_per_second = {3};
+  senders.lag_ms = {80};
+  senders.taken = {900};
+  senders.dropped_points = {1};
+  senders.agreement = {-1};
+  senders.num_reasons = 2;
+  senders.reason = {"old", "full"};
+  senders.refused = {{1, 0}};
+  return senders;
+}
+
 /// Whole messages come back; none of their beginnings is taken for one.
 template <typename Message>
 void ExpectWholeOrNothing(const Message& message) {
@@ -173,6 +198,8 @@ TEST(DecodeMessage, GivesWholeMessagesOrNothing) {
   ExpectWholeOrNothing(SomePreview());
   ExpectWholeOrNothing(SomeUnknown());
   ExpectWholeOrNothing(SomeVoxels());
+  ExpectWholeOrNothing(SomeKeypoints());
+  ExpectWholeOrNothing(SomeKeypointSenders());
 }
 
 TEST(DecodeMessage, AForgedCountTakesNoMemory) {

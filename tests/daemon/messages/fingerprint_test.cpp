@@ -17,6 +17,8 @@ TEST(Fingerprint, NoTypeThatClientsKnowHasChanged) {
   for (const KnownType& type : {
            KnownType{"body_t", body_t::getHash(), 0x939e9ca9c25759a6},
            KnownType{"contrast_t", contrast_t::getHash(), 0x1fa1443a9d6a9fae},
+           KnownType{"keypoint_senders_t", keypoint_senders_t::getHash(), 0xcb3776b137c27414},
+           KnownType{"keypoints_t", keypoints_t::getHash(), 0x67a38e772b2d12ec},
            KnownType{"people_t", people_t::getHash(), 0xf2b68569f7063383},
            KnownType{"person_body_t", person_body_t::getHash(), 0xc3f0ddc818400a9e},
            KnownType{"person_details_t", person_details_t::getHash(), 0x9d1147c28bf2b6b3},

@@ -272,6 +272,16 @@ TEST_F(PosePublisherTest, WithTheStatusComesWhatEachCameraDoesNotKnow) {
   EXPECT_EQ(inbox.messages[0].unknown_share, (std::vector<double>{-1, 0.4}));
 }
 
+TEST_F(PosePublisherTest, WithTheStatusComesWhoSendsKeypoints) {
+  ServiceReport report;
+  report.keypoints.senders.emplace_back().name = "witness";
+  Inbox<keypoint_senders_t> inbox(lcm_, "left.MOCAP_KEYPOINT_SENDERS");
+  PosePublisher(lcm_, {.prefix = "left."}, 2).PublishStatus(report);
+  Deliver();
+  ASSERT_EQ(inbox.messages.size(), 1u);
+  EXPECT_EQ(inbox.messages[0].name, (std::vector<std::string>{"witness"}));
+}
+
 TEST_F(PosePublisherTest, TheStatusTellsCamerasAndStages) {
   PipelineStatus status;
   status.sets_complete = 90;

@@ -91,6 +91,25 @@ TEST_F(RecordingTest, OfSeveralPeopleEachKeepsHisSizes) {
   EXPECT_DOUBLE_EQ(LoadSubject(take / "person-5/subject.toml").thigh, AverageSizes(1500).thigh);
 }
 
+TEST_F(RecordingTest, WhatClientsSentIsKeptBesideWhatWasPublished) {
+  const std::filesystem::path take = recorder_->Start("one", config_, {});
+  Offer(0, 0);
+  RecordingTaps& taps = recorder_->taps();
+  const auto offer = [](MessageTap& tap, const std::string& channel) {
+    tap.Offer([&](TappedMessage& copy) {
+      copy.channel = channel;
+      copy.bytes = {1, 2, 3};
+      return true;
+    });
+  };
+  offer(taps.messages, "MOCAP_POSE");
+  offer(taps.received, "MOCAP_KEYPOINTS");
+  recorder_->Stop();
+  const std::string log = testing::ReadText(TakeLayout{take}.Poses());
+  EXPECT_THAT(log, HasSubstr(std::string("MOCAP_KEYPOINTS\1\2\3", 18)));
+  EXPECT_THAT(log, HasSubstr("MOCAP_POSE"));
+}
+
 TEST_F(RecordingTest, ACanceledTakeLeavesNothingBehind) {
   recorder_->Start("one", config_, {});
   Offer(0, 0);
