@@ -15,6 +15,7 @@ import numpy as np
 
 import mocapd
 from client_log import BIN, TrackedTake, free_group, mocap, need_multicast
+from mocapd.mocap import keypoint_senders_t
 
 SOURCE = os.path.join(os.path.dirname(os.path.abspath(__file__)), "../../..")
 EXAMPLES = os.path.join(SOURCE, "docs/examples")
@@ -235,8 +236,32 @@ class StreamTest(unittest.TestCase):
             self.assertEqual((done.returncode, done.stderr), (0, ""))
             self.assertEqual(len(done.stdout.splitlines()), 3)
 
+    def test_an_example_sends_keypoints_that_the_daemon_takes(self):
+        need_multicast(self)
+        url = free_group()
+        daemon = self.take.daemon(url, rate="realtime", loop="true")
+        sender = subprocess.Popen(["/usr/bin/python3", "-B", os.path.join(EXAMPLES, "send_keypoints.py"), url, "60"],
+                                  stderr=subprocess.PIPE, text=True)
+        try:
+            for channel, data in mocapd.messages(url, timeout_s=60):
+                self.assertIsNone(sender.poll())
+                if channel != "MOCAP_KEYPOINT_SENDERS":
+                    continue
+                senders = keypoint_senders_t.decode(data)
+                if senders.num_senders and senders.taken[0] > 100:
+                    break
+            self.assertEqual(senders.name, ["example"])
+            refused = dict(zip(senders.reason, senders.refused[0]))
+            self.assertEqual({reason: count for reason, count in refused.items() if count > 0}, {})
+            self.assertLess(senders.lag_ms[0], 1000)
+        finally:
+            for process in (sender, daemon):
+                process.kill()
+                process.communicate()
+
     def test_examples_tell_how_they_are_used(self):
-        for name, wrong in (("follow_pose.py", ["", "1", "left.", "more"]), ("plot_take.py", []), ("plot_take.py", ["a", "b", "c"])):
+        for name, wrong in (("follow_pose.py", ["", "1", "left.", "more"]), ("plot_take.py", []), ("plot_take.py", ["a", "b", "c"]),
+                            ("send_keypoints.py", ["", "1", "left.", "more"])):
             self.assertIn(f"usage: {name} ", example(name, "--help"))
             done = subprocess.run(["/usr/bin/python3", "-B", os.path.join(EXAMPLES, name), *wrong], capture_output=True, text=True)
             self.assertEqual((done.returncode, done.stdout), (1, ""))

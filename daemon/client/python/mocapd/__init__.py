@@ -17,9 +17,10 @@ From what ``mocap track`` left, or from what ``lcm-logger`` or a recording kept 
 Millimetres, radians; the studio's frame is right-handed with z up and the floor at z = 0. ``_l`` is the person's left.
 Whatever was not tracked is NaN. LCM's own Python module is not needed.
 """
+from .keypoints import KeypointSender
 from .live import DEFAULT_URL, listen, listen_people, messages
 from .poses import CONTACT_NAMES, FURTHER_POINT_NAMES, PAPER_JOINT_NAMES, POINT_NAMES, Body, Pose
 from .results import Result, read_log, read_people, read_result
 
-__all__ = ["CONTACT_NAMES", "DEFAULT_URL", "FURTHER_POINT_NAMES", "PAPER_JOINT_NAMES", "POINT_NAMES", "Body", "Pose", "Result",
-           "listen", "listen_people", "messages", "read_log", "read_people", "read_result"]
+__all__ = ["CONTACT_NAMES", "DEFAULT_URL", "FURTHER_POINT_NAMES", "PAPER_JOINT_NAMES", "POINT_NAMES", "Body", "KeypointSender", "Pose",
+           "Result", "listen", "listen_people", "messages", "read_log", "read_people", "read_result"]

@@ -172,3 +172,21 @@ def receive(url: str, deadline: Deadline) -> Iterator[Event]:
             event = reassembly.take(packet, sender)
             if event is not None:
                 yield event
+
+
+class Publisher:
+    """Sends messages to a group, each in one packet."""
+
+    def __init__(self, url: str) -> None:
+        self.address = parse_group(url)
+        self.number = 0
+        self.udp = socket.socket(socket.AF_INET, socket.SOCK_DGRAM)
+        self.udp.setsockopt(socket.IPPROTO_IP, socket.IP_MULTICAST_TTL, int(dict(parse_qsl(urlsplit(url).query)).get("ttl", 0)))
+
+    def publish(self, channel: str, data: bytes) -> None:
+        """@raises OSError  without a route, or for a message that is too large for a packet."""
+        self.udp.sendto(SHORT_HEADER.pack(SHORT_MAGIC, self.number) + channel.encode() + b"\0" + data, self.address)
+        self.number = (self.number + 1) % 2 ** 32
+
+    def close(self) -> None:
+        self.udp.close()
