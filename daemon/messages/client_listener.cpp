@@ -30,6 +30,11 @@ void PassKeypoints(const lcm::ReceiveBuffer* buffer, const std::string&, ClientL
   listener->OnKeypoints(BytesIn(*buffer));
 }
 
+void PassLookRequest(const lcm::ReceiveBuffer* buffer, const std::string&,
+                     ClientListener* listener) {
+  listener->OnLookRequest(BytesIn(*buffer));
+}
+
 void PassOwnStatus(const lcm::ReceiveBuffer*, const std::string&, ClientListener* listener) {
   listener->OnStatus();
 }
@@ -37,8 +42,13 @@ void PassOwnStatus(const lcm::ReceiveBuffer*, const std::string&, ClientListener
 }  // namespace
 
 ClientListener::ClientListener(const LcmConfig& config, std::vector<CameraCalibration> cameras,
-                               CaptureTimes times, KeypointInbox& inbox, MessageTap& tap)
-    : lcm_(config), cameras_(std::move(cameras)), times_(times), inbox_(inbox), tap_(tap) {}
+                               CaptureTimes times, KeypointInbox& inbox, MessageTap& tap, Ask ask)
+    : lcm_(config),
+      cameras_(std::move(cameras)),
+      times_(times),
+      inbox_(inbox),
+      tap_(tap),
+      ask_(std::move(ask)) {}
 
 void ClientListener::Listen() {
   const LcmProvider provider = ParseLcmUrl(lcm_.url).provider;
@@ -46,6 +56,8 @@ void ClientListener::Listen() {
   const auto subscribe = [this](lcm::LCM& lcm) {
     lcm.subscribeFunction(ChannelPattern(lcm_.prefix + kKeypointsChannel), &PassKeypoints, this)
         ->setQueueCapacity(kMostKeypointsQueued);
+    lcm.subscribeFunction(ChannelPattern(lcm_.prefix + "MOCAP_LOOK_REQUEST"), &PassLookRequest,
+                          this);
     lcm.subscribeFunction(ChannelPattern(lcm_.prefix + kStatusChannel), &PassOwnStatus, this);
   };
   const auto hears = [this] { return SteadyNs() - heard_ns_ < kSilenceOfAll_ns; };
@@ -65,6 +77,11 @@ void ClientListener::OnKeypoints(std::span<const std::uint8_t> bytes) {
     copy.utime = TimelineNs() / 1000;
     return true;
   });
+}
+
+void ClientListener::OnLookRequest(std::span<const std::uint8_t> bytes) {
+  heard_ns_ = SteadyNs();
+  if (const auto request = DecodeMessage<look_request_t>(bytes)) ask_(*request);
 }
 
 bool ClientListener::Take(const keypoints_t& message) {

@@ -245,6 +245,25 @@ bool HasSoundCounts(const keypoint_senders_t&, std::span<const std::uint8_t> byt
   return skimmer.sound();
 }
 
+bool HasSoundCounts(const look_request_t&, std::span<const std::uint8_t> bytes) {
+  Skimmer skimmer(bytes);
+  skimmer.Skip(kHash);
+  skimmer.Text();
+  // Rate and hold, person and side, encoding.
+  skimmer.Skip(2 * kNumber + 2 * 4 + 1);
+  return skimmer.sound();
+}
+
+bool HasSoundCounts(const look_t&, std::span<const std::uint8_t> bytes) {
+  Skimmer skimmer(bytes);
+  skimmer.Skip(kHash + kNumber);
+  skimmer.Text();
+  // Person and region, way up, size and encoding.
+  skimmer.Skip(5 * 4 + 2 * kNumber + 4 + 1);
+  skimmer.Skip(skimmer.Count(1));
+  return skimmer.sound();
+}
+
 bool HasSoundCounts(const node_t&, std::span<const std::uint8_t> bytes) {
   Skimmer skimmer(bytes);
   skimmer.Skip(kHash + 2 * kNumber);

@@ -7,6 +7,8 @@
 #include <mocap/contrast_t.hpp>
 #include <mocap/keypoint_senders_t.hpp>
 #include <mocap/keypoints_t.hpp>
+#include <mocap/look_request_t.hpp>
+#include <mocap/look_t.hpp>
 #include <mocap/node_t.hpp>
 #include <mocap/people_t.hpp>
 #include <mocap/person_body_t.hpp>
@@ -41,6 +43,8 @@ bool HasSoundCounts(const voxels_t& kind, std::span<const std::uint8_t> bytes);
 bool HasSoundCounts(const silhouette_t& kind, std::span<const std::uint8_t> bytes);
 bool HasSoundCounts(const keypoints_t& kind, std::span<const std::uint8_t> bytes);
 bool HasSoundCounts(const keypoint_senders_t& kind, std::span<const std::uint8_t> bytes);
+bool HasSoundCounts(const look_request_t& kind, std::span<const std::uint8_t> bytes);
+bool HasSoundCounts(const look_t& kind, std::span<const std::uint8_t> bytes);
 bool HasSoundCounts(const node_t& kind, std::span<const std::uint8_t> bytes);
 
 /// Decodes a message; empty if it is not a valid one of this type.

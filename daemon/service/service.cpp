@@ -18,6 +18,7 @@
 #include "daemon/control/control_socket.h"
 #include "daemon/messages/channel_watch.h"
 #include "daemon/messages/client_listener.h"
+#include "daemon/messages/look_publisher.h"
 #include "daemon/messages/pose_publisher.h"
 #include "daemon/messages/preview_publisher.h"
 #include "daemon/nodes/node_listener.h"
@@ -63,18 +64,20 @@ void ReturnLargeBlocks() {
 /// Passes tracked sets to all recipients.
 class Outlet : public PoseSink {
  public:
-  Outlet(PosePublisher& publisher, LiveView& view, PreviewPublisher& preview)
-      : publisher_(publisher), view_(view), preview_(preview) {}
+  Outlet(PosePublisher& publisher, LiveView& view, PreviewPublisher& preview, LookPublisher& looks)
+      : publisher_(publisher), view_(view), preview_(preview), looks_(looks) {}
   void OnSet(const TrackedSet& set) override {
     publisher_.OnSet(set);
     view_.OnSet(set);
     preview_.OnSet(set);
+    looks_.OnSet(set);
   }
 
  private:
   PosePublisher& publisher_;
   LiveView& view_;
   PreviewPublisher& preview_;
+  LookPublisher& looks_;
 };
 
 /// Answers from the start; the object that handles requests comes later.
@@ -167,7 +170,11 @@ struct Recipients {
     // Pictures of nodes go to the studio's viewers.
     preview.emplace(beside ? *beside : publisher.sender(), config.lcm, cameras,
                     prepared.studio.times);
-    outlet.emplace(publisher, view, *preview);
+    const std::vector<CameraCalibration> local(
+        cameras.begin(),
+        cameras.begin() + static_cast<std::ptrdiff_t>(prepared.studio.cameras.size()));
+    looks.emplace(beside ? *beside : publisher.sender(), config.lcm, local, prepared.studio.times);
+    outlet.emplace(publisher, view, *preview, *looks);
   }
 
   const LcmConfig lcm;
@@ -179,6 +186,7 @@ struct Recipients {
   const std::vector<CameraCalibration> cameras;
   std::optional<LcmSender> beside;
   std::optional<PreviewPublisher> preview;
+  std::optional<LookPublisher> looks;
   std::optional<Outlet> outlet;
 };
 
@@ -188,8 +196,10 @@ struct Partners {
   Partners(const Config& config, const Studio& studio, Recipients& recipients) {
     if (config.role == Role::kStudio) nodes.emplace(config, recipients.cameras);
     if (config.role != Role::kNode) {
-      clients.emplace(config.lcm, recipients.cameras, studio.times, keypoints,
-                      recipients.recorder.taps().received);
+      clients.emplace(
+          config.lcm, recipients.cameras, studio.times, keypoints,
+          recipients.recorder.taps().received,
+          [&looks = *recipients.looks](const look_request_t& request) { looks.Ask(request); });
       return;
     }
     silhouettes.emplace(recipients.publisher.sender(), config, recipients.cameras);
@@ -218,8 +228,9 @@ struct LearningTaps {
 
 PipelineOptions OptionsFor(const Config& config, Recipients& recipients, LearningTaps& taps,
                            Partners& partners, const StopSignals& signals) {
-  PipelineOptions options = PipelineOptionsFor(
-      config, {&recipients.recorder.taps().frames, &taps.background, &taps.furniture});
+  PipelineOptions options =
+      PipelineOptionsFor(config, {&recipients.recorder.taps().frames, &taps.background,
+                                  &taps.furniture, &recipients.looks->taps()});
   options.previews = &recipients.preview->taps();
   options.keypoints = &partners.keypoints;
   options.stop = &signals.stop();

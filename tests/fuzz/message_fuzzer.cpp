@@ -17,6 +17,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   mocap::DecodeMessage<mocap::silhouette_t>(bytes);
   mocap::DecodeMessage<mocap::node_t>(bytes);
   mocap::DecodeMessage<mocap::keypoints_t>(bytes);
+  mocap::DecodeMessage<mocap::look_request_t>(bytes);
+  mocap::DecodeMessage<mocap::look_t>(bytes);
   mocap::DecodeMessage<mocap::keypoint_senders_t>(bytes);
   return 0;
 }

@@ -53,7 +53,10 @@ class ClientListenerTest : public ::testing::Test {
 
   KeypointInbox inbox_;
   MessageTap tap_;
-  ClientListener listener_{{}, Cameras(), CaptureTimes::kRecorded, inbox_, tap_};
+  ClientListener listener_{
+      {},     Cameras(), CaptureTimes::kRecorded,
+      inbox_, tap_,      [this](const look_request_t& request) { requests_.push_back(request); }};
+  std::vector<look_request_t> requests_;
   std::vector<KeypointView> views_;
 };
 
@@ -71,7 +74,7 @@ TEST_F(ClientListenerTest, KeypointsReachTheTracker) {
 }
 
 TEST_F(ClientListenerTest, PresentTimesAreTheHostsTimeOfDay) {
-  ClientListener live({}, Cameras(), CaptureTimes::kPresent, inbox_, tap_);
+  ClientListener live({}, Cameras(), CaptureTimes::kPresent, inbox_, tap_, {});
   keypoints_t message = SomeMessage();
   const std::int64_t capture_ns = TimelineNs() - 50'000'000;
   message.capture_ns = TheHostClock().ToTimeOfDay(capture_ns);
@@ -104,6 +107,19 @@ TEST_F(ClientListenerTest, GarbageIsCounted) {
   const KeypointsReport report = inbox_.Report(SteadyNs());
   EXPECT_TRUE(report.senders.empty());
   EXPECT_EQ(report.strangers, static_cast<std::int64_t>(bytes.size()));
+}
+
+TEST_F(ClientListenerTest, RequestsForPicturesArePassedOn) {
+  look_request_t request{};
+  request.asker = "witness";
+  request.rate_hz = 3;
+  Bytes bytes(static_cast<std::size_t>(request.getEncodedSize()));
+  request.encode(bytes.data(), 0, static_cast<int>(bytes.size()));
+  listener_.OnLookRequest(std::span(bytes).first(bytes.size() - 1));
+  EXPECT_TRUE(requests_.empty());
+  listener_.OnLookRequest(bytes);
+  ASSERT_EQ(requests_.size(), 1u);
+  EXPECT_EQ(requests_[0].rate_hz, 3);
 }
 
 TEST_F(ClientListenerTest, ASendersNameIsPrintableAndShort) {

@@ -173,6 +173,22 @@ keypoint_senders_t SomeKeypointSenders() {
   return senders;
 }
 
+look_request_t SomeLookRequest() {
+  look_request_t request{};
+  request.asker = "witness";
+  request.rate_hz = 3;
+  request.hold_s = 10;
+  return request;
+}
+
+look_t SomeLook() {
+  look_t look{};
+  look.camera = "cam1";
+  look.num_bytes = 3;
+  look.picture = {0xff, 0xd8, 0xff};
+  return look;
+}
+
 /// Whole messages come back; none of their beginnings is taken for one.
 template <typename Message>
 void ExpectWholeOrNothing(const Message& message) {
@@ -199,6 +215,8 @@ TEST(DecodeMessage, GivesWholeMessagesOrNothing) {
   ExpectWholeOrNothing(SomeUnknown());
   ExpectWholeOrNothing(SomeVoxels());
   ExpectWholeOrNothing(SomeKeypoints());
+  ExpectWholeOrNothing(SomeLookRequest());
+  ExpectWholeOrNothing(SomeLook());
   ExpectWholeOrNothing(SomeKeypointSenders());
 }
 

@@ -19,6 +19,8 @@ TEST(Fingerprint, NoTypeThatClientsKnowHasChanged) {
            KnownType{"contrast_t", contrast_t::getHash(), 0x1fa1443a9d6a9fae},
            KnownType{"keypoint_senders_t", keypoint_senders_t::getHash(), 0xcb3776b137c27414},
            KnownType{"keypoints_t", keypoints_t::getHash(), 0x67a38e772b2d12ec},
+           KnownType{"look_request_t", look_request_t::getHash(), 0x9d75c85c9d354dab},
+           KnownType{"look_t", look_t::getHash(), 0x0b0bb8c6a228b561},
            KnownType{"people_t", people_t::getHash(), 0xf2b68569f7063383},
            KnownType{"person_body_t", person_body_t::getHash(), 0xc3f0ddc818400a9e},
            KnownType{"person_details_t", person_details_t::getHash(), 0x9d1147c28bf2b6b3},
