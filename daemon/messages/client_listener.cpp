@@ -42,12 +42,14 @@ void PassOwnStatus(const lcm::ReceiveBuffer*, const std::string&, ClientListener
 }  // namespace
 
 ClientListener::ClientListener(const LcmConfig& config, std::vector<CameraCalibration> cameras,
-                               CaptureTimes times, KeypointInbox& inbox, MessageTap& tap, Ask ask)
+                               CaptureTimes times, KeypointInbox& inbox, MessageTap& messages,
+                               KeypointTap& keypoints, Ask ask)
     : lcm_(config),
       cameras_(std::move(cameras)),
       times_(times),
       inbox_(inbox),
-      tap_(tap),
+      messages_(messages),
+      keypoints_(keypoints),
       ask_(std::move(ask)) {}
 
 void ClientListener::Listen() {
@@ -71,7 +73,7 @@ void ClientListener::OnKeypoints(std::span<const std::uint8_t> bytes) {
   const std::optional<keypoints_t> message = DecodeMessage<keypoints_t>(bytes);
   if (!message) return inbox_.Refuse("", KeypointRefusal::kInvalid, heard_ns_);
   if (!Take(*message)) return;
-  tap_.Offer([&](TappedMessage& copy) {
+  messages_.Offer([&](TappedMessage& copy) {
     copy.channel = lcm_.prefix + kKeypointsChannel;
     copy.bytes.assign(bytes.begin(), bytes.end());
     copy.utime = TimelineNs() / 1000;
@@ -99,7 +101,12 @@ bool ClientListener::Take(const keypoints_t& message) {
   const bool is_present = times_ == CaptureTimes::kPresent;
   if (is_present) usable.view.capture_ns -= TheHostClock().OffsetNs();
   const std::int64_t now_ns = is_present ? TimelineNs() : inbox_.set_ns();
-  return inbox_.Add(sender, std::move(usable.view), usable.dropped, now_ns, heard_ns_);
+  if (!inbox_.Add(sender, usable.view, usable.dropped, now_ns, heard_ns_)) return false;
+  keypoints_.Offer([&](KeypointView& copy) {
+    copy = std::move(usable.view);
+    return true;
+  });
+  return true;
 }
 
 }  // namespace mocap

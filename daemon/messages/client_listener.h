@@ -13,6 +13,7 @@
 #include "core/reconstruction/camera/camera_model.h"
 #include "daemon/messages/lcm_listener.h"
 #include "daemon/pipeline/keypoint_inbox.h"
+#include "daemon/pipeline/keypoint_tap.h"
 #include "daemon/pipeline/tap.h"
 #include "drivers/studio.h"
 
@@ -28,10 +29,11 @@ class ClientListener {
 
   /// @param times   kind of capture times; clients have present ones by the host's time of day.
   /// @param inbox   borrowed for the listener's life.
-  /// @param tap     gets what the inbox takes; likewise.
+  /// @param messages, keypoints  get what the inbox takes; likewise.
   /// @param ask     is called from the listener's thread.
   ClientListener(const LcmConfig& config, std::vector<CameraCalibration> cameras,
-                 CaptureTimes times, KeypointInbox& inbox, MessageTap& tap, Ask ask);
+                 CaptureTimes times, KeypointInbox& inbox, MessageTap& messages,
+                 KeypointTap& keypoints, Ask ask);
 
   /// Does nothing if the address is one where nobody can send.
   void Listen();
@@ -49,7 +51,8 @@ class ClientListener {
   const std::vector<CameraCalibration> cameras_;
   const CaptureTimes times_;
   KeypointInbox& inbox_;
-  MessageTap& tap_;
+  MessageTap& messages_;
+  KeypointTap& keypoints_;
   const Ask ask_;
   std::int64_t heard_ns_ = 0;            ///< By the steady clock.
   std::optional<LcmListener> listener_;  ///< Ends before the members that it uses.

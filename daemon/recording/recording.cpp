@@ -6,7 +6,6 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <array>
 #include <chrono>
 #include <cmath>
 #include <stdexcept>
@@ -28,7 +27,6 @@ namespace {
 constexpr std::chrono::milliseconds kKeeperTick{100};
 constexpr std::chrono::milliseconds kHeldTick{5};
 constexpr std::int64_t kSafeEveryNs = 300'000'000;
-constexpr std::size_t kMessagesQueued = 1024;
 constexpr std::size_t kFewestFrames = 2;
 constexpr std::size_t kLongestThreadName = 15;
 
@@ -62,10 +60,6 @@ TakeDescription DescriptionOf(const std::filesystem::path& folder, const Recordi
     description.cameras.push_back(camera.calibration);
   }
   return description;
-}
-
-std::array<MessageTap*, 2> MessageTapsOf(RecordingTaps& taps) {
-  return {&taps.messages, &taps.received};
 }
 
 /// Checks before anything is created.
@@ -148,7 +142,7 @@ void Recording::Prepare(std::span<const RecordedPerson> people) {
     MakeFolder(file.parent_path());
     SaveSubject(file, person.sizes, person.name);
   }
-  log_.emplace(layout.Poses());
+  messages_.emplace(partial_, taps_);
   safe_log_.emplace(layout.Poses());
   for (const RecordedCamera& camera : studio_.cameras) {
     Line& line = *lines_.emplace_back(std::make_unique<Line>());
@@ -176,7 +170,7 @@ void Recording::Begin() {
                          lines_[i]->bell);
     lines_[i]->coder.tap = &taps_.frames[i];
   }
-  for (MessageTap* tap : MessageTapsOf(taps_)) tap->Open(kMessagesQueued, {}, keeper_bell_);
+  messages_->Open(keeper_bell_);
   std::vector<Coder*> coders;
   for (const auto& line : lines_) coders.push_back(&line->coder);
   watch_.emplace(std::move(coders), can_return_);
@@ -284,14 +278,13 @@ void Recording::RunKeeper() {
   pthread_setname_np(pthread_self(), "rec keeper");
   Guard([&] { KeepUntilStopped(); });
   End();
-  for (MessageTap* tap : MessageTapsOf(taps_)) tap->Close();
+  messages_->Close();
   for (FrameTap& tap : taps_.frames) tap.Close();
   EndWatch();
-  Guard([&] { WriteMessages(); });
+  Guard([&] { messages_->Write(time_of_day_ahead_ns_); });
   for (const auto& line : lines_) line->coder.thread.join();
   Complete();
   for (FrameTap& tap : taps_.frames) tap.Free();
-  for (MessageTap* tap : MessageTapsOf(taps_)) tap->Free();
   GiveBackFreeMemory();
 }
 
@@ -309,22 +302,11 @@ void Recording::KeepUntilStopped() {
   while (!stop_.load()) {
     std::this_thread::sleep_for(kKeeperTick);
     RequireStillThere(partial_);
-    WriteMessages();
+    messages_->Write(time_of_day_ahead_ns_);
     if (SteadyNs() - safe_ns < kSafeEveryNs) continue;
     safe_ns = SteadyNs();
     KeepSafe();
   }
-}
-
-void Recording::WriteMessages() {
-  for (MessageTap* tap : MessageTapsOf(taps_)) {
-    while (tap->queue().TryPop()) {
-      TappedMessage& message = tap->queue().front();
-      message.utime += time_of_day_ahead_ns_ / 1000;
-      log_->Write(message);
-    }
-  }
-  log_->Flush();
 }
 
 void Recording::KeepSafe() {
@@ -374,7 +356,7 @@ void Recording::Complete() {
 // A removed take with open files would keep filling the disk.
 void Recording::CloseFiles() {
   writer_.reset();
-  log_.reset();
+  messages_.reset();
   safe_log_.reset();
   for (const auto& line : lines_) {
     line->video.reset();

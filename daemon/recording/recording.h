@@ -20,7 +20,8 @@
 #include "daemon/pipeline/doorbell.h"
 #include "daemon/pipeline/tap.h"
 #include "daemon/recording/coder_watch.h"
-#include "daemon/recording/message_log.h"
+#include "daemon/recording/message_keeper.h"
+#include "daemon/recording/recording_taps.h"
 #include "daemon/recording/safe_file.h"
 #include "drivers/background_source.h"
 #include "drivers/studio.h"
@@ -41,13 +42,6 @@ struct RecordedStudio {
   std::vector<RecordedCamera> cameras;
   std::string config_text;  ///< Stored in the take; empty: none.
   CaptureTimes times = CaptureTimes::kPresent;
-};
-
-/// The pipeline's threads offer their data here, in the order of the cameras.
-struct RecordingTaps {
-  std::deque<FrameTap> frames;
-  MessageTap messages;
-  MessageTap received;  ///< Messages of clients, offered by the thread that receives them.
 };
 
 /// The status of a current or past recording.
@@ -114,7 +108,6 @@ class Recording {
   void KeepUntilStopped();
   void EndWatch();
   void KeepSafe();
-  void WriteMessages();
   void Complete();
   void CloseFiles();
   void End();
@@ -128,7 +121,7 @@ class Recording {
   std::optional<TakeWriter> writer_;
   const std::filesystem::path folder_;
   const std::filesystem::path partial_;
-  std::optional<MessageLog> log_;
+  std::optional<MessageKeeper> messages_;
   std::optional<SafeFile> safe_log_;
   std::vector<std::unique_ptr<Line>> lines_;
   Doorbell keeper_bell_;

@@ -198,7 +198,7 @@ struct Partners {
     if (config.role != Role::kNode) {
       clients.emplace(
           config.lcm, recipients.cameras, studio.times, keypoints,
-          recipients.recorder.taps().received,
+          recipients.recorder.taps().received, recipients.recorder.taps().keypoints,
           [&looks = *recipients.looks](const look_request_t& request) { looks.Ask(request); });
       return;
     }

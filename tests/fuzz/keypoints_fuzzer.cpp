@@ -17,9 +17,10 @@ std::vector<mocap::CameraCalibration> Cameras() {
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   static mocap::KeypointInbox inbox;
   static mocap::MessageTap tap;
+  static mocap::KeypointTap keypoint_tap;
   static mocap::LookWants wants;
   static mocap::ClientListener listener(
-      {}, Cameras(), mocap::CaptureTimes::kRecorded, inbox, tap,
+      {}, Cameras(), mocap::CaptureTimes::kRecorded, inbox, tap, keypoint_tap,
       [](const mocap::look_request_t& request) { wants.Take(request, 0); });
   std::vector<mocap::KeypointView> views;
   inbox.TakeFor(1'000'000'000, views);

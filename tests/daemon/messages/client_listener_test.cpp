@@ -53,9 +53,14 @@ class ClientListenerTest : public ::testing::Test {
 
   KeypointInbox inbox_;
   MessageTap tap_;
-  ClientListener listener_{
-      {},     Cameras(), CaptureTimes::kRecorded,
-      inbox_, tap_,      [this](const look_request_t& request) { requests_.push_back(request); }};
+  KeypointTap keypoints_;
+  ClientListener listener_{{},
+                           Cameras(),
+                           CaptureTimes::kRecorded,
+                           inbox_,
+                           tap_,
+                           keypoints_,
+                           [this](const look_request_t& request) { requests_.push_back(request); }};
   std::vector<look_request_t> requests_;
   std::vector<KeypointView> views_;
 };
@@ -74,7 +79,7 @@ TEST_F(ClientListenerTest, KeypointsReachTheTracker) {
 }
 
 TEST_F(ClientListenerTest, PresentTimesAreTheHostsTimeOfDay) {
-  ClientListener live({}, Cameras(), CaptureTimes::kPresent, inbox_, tap_, {});
+  ClientListener live({}, Cameras(), CaptureTimes::kPresent, inbox_, tap_, keypoints_, {});
   keypoints_t message = SomeMessage();
   const std::int64_t capture_ns = TimelineNs() - 50'000'000;
   message.capture_ns = TheHostClock().ToTimeOfDay(capture_ns);
@@ -133,6 +138,7 @@ TEST_F(ClientListenerTest, ASendersNameIsPrintableAndShort) {
 TEST_F(ClientListenerTest, ARecordingGetsWhatIsTaken) {
   Doorbell bell;
   tap_.Open(4, {}, bell);
+  keypoints_.Open(4, {}, bell);
   keypoints_t message = SomeMessage();
   message.camera = "cam7";
   Hear(message);
@@ -141,6 +147,10 @@ TEST_F(ClientListenerTest, ARecordingGetsWhatIsTaken) {
   EXPECT_EQ(tap_.queue().front().channel, "MOCAP_KEYPOINTS");
   EXPECT_EQ(tap_.queue().front().bytes, BytesOf(SomeMessage()));
   EXPECT_FALSE(tap_.queue().TryPop());
+  ASSERT_TRUE(keypoints_.queue().TryPop());
+  EXPECT_EQ(keypoints_.queue().front().capture_ns, SomeMessage().capture_ns);
+  EXPECT_EQ(keypoints_.queue().front().points.size(), 1u);
+  EXPECT_FALSE(keypoints_.queue().TryPop());
 }
 
 }  // namespace

@@ -104,10 +104,15 @@ TEST_F(RecordingTest, WhatClientsSentIsKeptBesideWhatWasPublished) {
   };
   offer(taps.messages, "MOCAP_POSE");
   offer(taps.received, "MOCAP_KEYPOINTS");
+  taps.keypoints.Offer([](KeypointView& copy) {
+    copy = {.camera = "cam1", .capture_ns = 5, .points = {Keypoint()}};
+    return true;
+  });
   recorder_->Stop();
   const std::string log = testing::ReadText(TakeLayout{take}.Poses());
   EXPECT_THAT(log, HasSubstr(std::string("MOCAP_KEYPOINTS\1\2\3", 18)));
   EXPECT_THAT(log, HasSubstr("MOCAP_POSE"));
+  EXPECT_THAT(testing::ReadText(take / "keypoints.csv"), HasSubstr("\ncam1,"));
 }
 
 TEST_F(RecordingTest, ACanceledTakeLeavesNothingBehind) {
