@@ -13,6 +13,7 @@
 #include "core/body/body_part.h"
 #include "core/body/foot_contacts.h"
 #include "core/body/pose_state.h"
+#include "core/evidence/keypoint_rays.h"
 #include "core/reconstruction/carving/voxel_grid.h"
 #include "core/reconstruction/silhouette/outline.h"
 
@@ -44,10 +45,17 @@ struct Observation {
   std::span<const Outline> borders;   ///< The rays that graze anybody near the person.
   /// Cells of `flesh` that no camera denies, but too few show.
   std::span<const Eigen::Vector3i> doubtful;
+  std::span<const KeypointRays> keypoints;  ///< What pose networks say of the person.
 };
 
 using PointStds = Eigen::Matrix<double, 1, kPointCount>;
 using FurtherStds = Eigen::Matrix<double, 1, kFurtherPointCount>;
+
+/// How well a view of keypoints agrees with the pose.
+struct KeypointAgreement {
+  int view = 0;          ///< As in KeypointRays.
+  double agreement = 0;  ///< Probability that the view is right, 0 to 1.
+};
 
 /// Another pose that a person may have.
 struct RivalPose {
@@ -74,9 +82,10 @@ struct CaptureResult {
   /// Of the pose, 0 to 1. Empty: nobody is there, or the tracker cannot tell.
   std::optional<double> probability;
   std::optional<RivalPose> rival;  ///< The likeliest of the other poses, if there are any.
-  double residual_mm = 0;          ///< Mean distance between measured and model points.
-  int voxels = 0;                  ///< Of the person.
-  bool body_changed = false;       ///< The sizes in body() have changed in this frame.
+  std::vector<KeypointAgreement> agreements = {};  ///< Of this set's keypoints.
+  double residual_mm = 0;     ///< Mean distance between measured and model points.
+  int voxels = 0;             ///< Of the person.
+  bool body_changed = false;  ///< The sizes in body() have changed in this frame.
 };
 
 /// The two stages of an update for profiling: from voxels to measured points, and from points to a

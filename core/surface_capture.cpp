@@ -2,12 +2,15 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <memory>
 #include <optional>
 #include <utility>
 
 #include "core/counted_time.h"
 #include "core/evidence/evidence.h"
+#include "core/evidence/pose_history.h"
+#include "core/evidence/recent_keypoints.h"
 #include "core/hypotheses/hypothesis_set.h"
 #include "core/hypotheses/pose_deviations.h"
 #include "core/hypotheses/steady_pose.h"
@@ -45,6 +48,7 @@ class SurfaceCapture : public MotionCapture {
     const double dt_s = static_cast<double>(passed_ns) * 1e-9;
     last_ns_ = capture_ns;
     Gather(observation, dt_s);
+    WeighKeypoints(dt_s);
     if (observer) observer->OnStageEnd(UpdateStage::kLabel);
     result_.body_changed = false;
     result_.voxels = evidence_.cloud.size();
@@ -76,15 +80,37 @@ class SurfaceCapture : public MotionCapture {
 
  private:
   void Gather(const Observation& observation, double dt_s) {
+    recent_keypoints_.Add(observation.keypoints, dt_s);
+    evidence_.recent_keypoints.clear();
     if (hypotheses_.empty()) {
       evidence_.Gather(observation);
       return;
     }
-    const Hypothesis& best = hypotheses_.best();
-    const PersonMotion motion{best.body, [&](double after_s) {
-                                return best.filter.PredictedPose(std::max(0.0, dt_s + after_s));
-                              }};
+    const PersonMotion motion{
+        body(), [this, dt_s](double after_s) {
+          if (after_s < -dt_s)
+            if (const PoseState* const past = PoseBefore(-after_s)) return *past;
+          return hypotheses_.best().filter.PredictedPose(std::max(0.0, dt_s + after_s));
+        }};
     evidence_.Gather(observation, &motion);
+    if (!evidence_.keypoints.empty()) evidence_.recent_keypoints = recent_keypoints_.AtSet(motion);
+  }
+
+  const PoseState* PoseBefore(double before_s) const {
+    return history_.NearestTo(*last_ns_ - std::llround(before_s * 1e9));
+  }
+
+  // Frames count less the closer they are in time, and views the closer to their camera's last one.
+  void WeighKeypoints(double dt_s) {
+    const double frame_worth = hypotheses_.empty() ? kFrameWorth : FrameWorth(std::max(dt_s, 1e-3));
+    for (KeypointRays& view : evidence_.keypoints) {
+      const std::int64_t seen_ns = *last_ns_ + std::llround(view.after_s * 1e9);
+      const auto [last, is_first] = last_views_ns_.try_emplace(view.camera, seen_ns);
+      const double after_s =
+          static_cast<double>(std::max<std::int64_t>(0, seen_ns - last->second)) * 1e-9;
+      view.worth = (is_first ? 1 : WorthOfNextView(after_s)) / frame_worth;
+      last->second = seen_ns;
+    }
   }
 
   void StartOver(const std::optional<BodySizes>& given) {
@@ -116,6 +142,9 @@ class SurfaceCapture : public MotionCapture {
   void GiveUp() {
     result_.state = CaptureState::kSearching;
     hypotheses_.Clear();
+    history_.Clear();
+    recent_keypoints_.Clear();
+    last_views_ns_.clear();
     scheduler_.StartOver();
     known_ = given_;
     sizes_of_lost_.reset();
@@ -206,10 +235,12 @@ class SurfaceCapture : public MotionCapture {
   void Report(double dt_s) {
     result_.probability.reset();
     result_.rival.reset();
+    result_.agreements.clear();
     result_.contacts = kUnknownContacts;
     if (hypotheses_.empty() || result_.state == CaptureState::kSearching) return;
     const BodyModel& body = hypotheses_.best().body;
     const PoseFilter& filter = hypotheses_.best().filter;
+    history_.Add(*last_ns_, filter.pose());
     const Posture filtered = body.PostureAt(filter.pose());
     SetDeviations(body, filtered, filter.covariance() / kFrameWorth, result_);
     if (result_.state != CaptureState::kTracking) {
@@ -225,6 +256,15 @@ class SurfaceCapture : public MotionCapture {
     result_.further_W = body.FurtherPointsAt(posture);
     result_.residual_mm = hypotheses_.best().fitness.surface_mm;
     if (result_.state != CaptureState::kLost) ReportDoubt();
+    ReportAgreement();
+  }
+
+  void ReportAgreement() {
+    if (evidence_.keypoints.empty()) return;
+    PosedBody posed;
+    posed.Set(body(), hypotheses_.best().filter.pose());
+    for (const KeypointRays& view : evidence_.keypoints)
+      result_.agreements.push_back({view.view, KeypointTerm::ProbabilityOfRight(view, posed)});
   }
 
   void ReportDoubt() {
@@ -240,6 +280,9 @@ class SurfaceCapture : public MotionCapture {
   Evidence evidence_;
   Objective objective_;
   HypothesisSet hypotheses_;
+  PoseHistory history_;
+  RecentKeypoints recent_keypoints_;
+  std::map<int, std::int64_t> last_views_ns_;  ///< By camera.
   FootContacts feet_;
   SteadyPose steady_;
   std::optional<BodySizes> known_;

@@ -76,6 +76,7 @@ void Track(const TrackOptions& options) {
   RequireOut(options.tracked, new_folder);
   ResultSink sink(options.tracked.people ? KeptPeople::kEverybody : KeptPeople::kFirst,
                   isatty(STDERR_FILENO) == 1, MarkOf(options.tracked.take));
+  const std::unique_ptr<KeypointSource> keypoints = KeypointsOf(options.tracked, studio);
   const OpenElsewhere masked = MaskedCamerasOf(options.tracked, studio);
   Pipeline pipeline(std::move(studio),
                     {.voxel_mm = options.voxel_mm,
@@ -84,6 +85,7 @@ void Track(const TrackOptions& options) {
                      .tracker = tracker.kind,
                      .people = options.tracked.people.value_or(1),
                      .first_set = options.first,
+                     .keypoints = keypoints.get(),
                      .elsewhere = masked},
                     LoadBodyTable(options.body.empty() ? tracker.body : options.body), sink);
   const std::optional<KnownPerson> subject = SubjectOf(options.tracked);

@@ -7,6 +7,7 @@
 
 #include "core/evidence/bounding_edges.h"
 #include "core/evidence/feet.h"
+#include "core/evidence/keypoint_rays.h"
 #include "core/evidence/ray_motion.h"
 #include "core/motion_capture.h"
 #include "core/reconstruction/carving/voxel_cloud.h"
@@ -27,7 +28,9 @@ struct Evidence {
   VoxelCloud cloud;
   std::vector<Outline> borders;  ///< One per camera; empty for cameras that are missing.
   std::vector<BoundingEdge> edges;
-  std::optional<Vector3> toes_W;  ///< Where the feet point; see FeetFinder.
+  std::optional<Vector3> toes_W;               ///< Where the feet point; see FeetFinder.
+  std::vector<KeypointRays> keypoints;         ///< Of this set.
+  std::vector<KeypointRays> recent_keypoints;  ///< Also of the sets before; only if any are new.
   FeetFinder feet_finder;
   RayMotion ray_motion;
 
@@ -37,7 +40,11 @@ struct Evidence {
     cloud.Build(observation.flesh, observation.room);
     borders.assign(observation.borders.begin(), observation.borders.end());
     FindBoundingEdges(cloud, observation.outlines, observation.box_W, edges);
-    if (motion) ray_motion.BringToSet(*motion, observation.box_W, edges, borders);
+    keypoints.assign(observation.keypoints.begin(), observation.keypoints.end());
+    if (motion) {
+      ray_motion.BringToSet(*motion, observation.box_W, edges, borders);
+      for (KeypointRays& view : keypoints) BringToSet(*motion, view);
+    }
     toes_W = feet_finder.ToesBeforeShins(cloud);
   }
 

@@ -23,6 +23,7 @@ struct KeypointView {
   std::int64_t capture_ns = 0;  ///< Of the picture.
   int person = 0;               ///< Tells people of one picture apart; numbers mean nothing else.
   std::vector<Keypoint> points;
+  std::string sender = {};  ///< Empty: not known.
 };
 
 }  // namespace mocap

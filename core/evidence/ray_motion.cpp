@@ -17,6 +17,17 @@ bool IsAtOnce(const Outline& outline) {
 
 }  // namespace
 
+void BringToSet(const PersonMotion& motion, KeypointRays& view) {
+  if (std::abs(view.after_s) < kAtOnce_s) return;
+  const Posture at_set = motion.body.PostureAt(motion.pose_after(0));
+  const Posture seen = motion.body.PostureAt(motion.pose_after(view.after_s));
+  const LandmarkPlaces places = PlaceLandmarks(motion.body);
+  for (KeypointRay& ray : view.rays) {
+    const LandmarkPlace& place = places[static_cast<int>(ray.landmark)];
+    ray.eye_W += PlaceIn(at_set, place) - PlaceIn(seen, place);
+  }
+}
+
 void RayMotion::BringToSet(const PersonMotion& motion, const Eigen::AlignedBox3d& box_W,
                            std::vector<BoundingEdge>& edges, std::vector<Outline>& borders) {
   if (std::ranges::all_of(borders, IsAtOnce)) return;

@@ -7,6 +7,7 @@
 #include "core/body/posed_body.h"
 #include "core/body/segment_matcher.h"
 #include "core/evidence/bounding_edges.h"
+#include "core/evidence/keypoint_rays.h"
 #include "core/reconstruction/silhouette/outline.h"
 
 namespace mocap {
@@ -17,6 +18,10 @@ struct PersonMotion {
   /// The pose a time after that of the set [s], or before it.
   std::function<PoseState(double after_s)> pose_after;
 };
+
+/// Moves the lines of sight of a view that was taken before or after its set, each with its own
+/// point of the body.
+void BringToSet(const PersonMotion& motion, KeypointRays& view);
 
 /// Moves rays and edges to the moment of their set. Each keeps grazing the place of the body that
 /// it grazed when its picture was taken, as if all pictures had been taken at once. What grazes no

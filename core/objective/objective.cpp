@@ -19,6 +19,7 @@ void Objective::SetEvidence(const Evidence& evidence) {
   whole_.contacts.SetEvidence(evidence, options_.voxels, options_.rays, options_.pose_std_mm);
   borders_.SetEvidence(evidence, options_.pose_std_mm);
   flesh_.SetEvidence(evidence, whole_.contacts.contacts(), options_.pose_std_mm);
+  keypoints_.SetEvidence(evidence.keypoints);
 }
 
 Fitness Objective::At(const BodyModel& body, const PoseState& pose, const Things& things) {
@@ -41,6 +42,7 @@ Fitness Objective::At(ComparedBody& part, const Things& things) {
   fitness[Term::kFloor] = floor_.At(posed, part.moving);
   fitness[Term::kJoints] = JointNats(body.table(), posed.pose().theta);
   fitness[Term::kHabits] = HabitNats(body, posed.pose(), evidence_->toes_W);
+  fitness[Term::kKeypoints] = keypoints_.At(posed);
   fitness.backwards = ShareBackwards(posed.pose(), evidence_->toes_W);
   fitness.things = contacts.shown;
   fitness.unexplained_share = contacts.unexplained_share;
@@ -64,6 +66,7 @@ void Objective::Linearize(ComparedBody& part, const Things& things, UpdateEquati
   borders_.Linearize(posed, part.moving, sums);
   flesh_.Linearize(posed, part.moving & ~part.contacts.CarvedAway(), sums);
   floor_.Linearize(posed, part.moving, sums);
+  keypoints_.Linearize(posed, sums);
   chain_.AddTo(equations);
   OverlapTerm{}.Linearize(posed, part.moving, part.present, sums);
   LinearizeJoints(posed.body().table(), posed.pose(), equations);

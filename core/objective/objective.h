@@ -9,15 +9,28 @@
 #include "core/objective/contact_term.h"
 #include "core/objective/flesh_term.h"
 #include "core/objective/floor_term.h"
+#include "core/objective/keypoint_term.h"
 #include "core/objective/overlap_term.h"
 #include "core/objective/pose_priors.h"
 
 namespace mocap {
 
 /// The terms of the objective.
-enum class Term { kRays, kSurface, kBorders, kFlesh, kOverlap, kFloor, kThings, kJoints, kHabits };
-inline constexpr std::array<std::string_view, 9> kTermNames = {
-    "rays", "surface", "borders", "flesh", "overlap", "floor", "things", "joints", "habits"};
+enum class Term {
+  kRays,
+  kSurface,
+  kBorders,
+  kFlesh,
+  kOverlap,
+  kFloor,
+  kThings,
+  kJoints,
+  kHabits,
+  kKeypoints
+};
+inline constexpr std::array<std::string_view, 10> kTermNames = {
+    "rays",  "surface", "borders", "flesh",  "overlap",
+    "floor", "things",  "joints",  "habits", "keypoints"};
 
 /// -log p of a body at a pose.
 struct Fitness {
@@ -106,6 +119,7 @@ class Objective {
   BorderTerm borders_;
   FleshTerm flesh_;
   FloorTerm floor_{options_.pose_std_mm};
+  KeypointTerm keypoints_;
   ComparedBody whole_;
   ChainEquations chain_;
   std::vector<SurfaceResidual> residuals_;

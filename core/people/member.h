@@ -3,9 +3,11 @@
 
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 
+#include "core/evidence/keypoint_rays.h"
 #include "core/motion_capture.h"
 #include "core/people/flesh_division.h"
 #include "core/people/outline_division.h"
@@ -40,6 +42,7 @@ struct Member {
   /// What this frame shows; null without flesh.
   const FleshShare* flesh = nullptr;
   const OutlineShare* outlines = nullptr;
+  std::span<const KeypointRays> keypoints = {};
   Eigen::AlignedBox3d box_W;  ///< Contains the person.
 };
 

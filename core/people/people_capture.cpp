@@ -99,7 +99,8 @@ void PeopleCapture::Update(const Observation& room, std::span<const CameraEye> e
   PassTime(capture_ns);
   BringBack();
   PoseMembers(capture_ns);
-  const Observation believed(BelieveWithin(posed_, room, believed_), room.outlines, room.box_W);
+  Observation believed(BelieveWithin(posed_, room, believed_), room.outlines, room.box_W);
+  believed.keypoints = room.keypoints;
   const bool is_alone = IsAlone(believed.flesh);
   thinned_.resize(room.outlines.size());
   for (std::size_t i = 0; i < thinned_.size(); ++i)
@@ -108,6 +109,7 @@ void PeopleCapture::Update(const Observation& room, std::span<const CameraEye> e
     UpdateAlone(believed, capture_ns, observer);
   } else {
     Divide(believed.flesh);
+    DivideKeypoints(room.keypoints, capture_ns);
     MeetStrangers(eyes);
     if (observer) observer->OnStageEnd(UpdateStage::kLabel);
     UpdateMembers(capture_ns, observer);
@@ -176,14 +178,20 @@ void PeopleCapture::UpdateAlone(const Observation& room, std::int64_t capture_ns
                                 UpdateObserver* observer) {
   const VoxelGrid& flesh = VoxelsWithin(room.flesh, room.box_W, flesh_of_one_);
   Member& member = *members_.front();
-  member.capture->Update({flesh, thinned_, room.box_W}, capture_ns, observer);
+  Observation observation(flesh, thinned_, room.box_W);
+  observation.keypoints = room.keypoints;
+  member.capture->Update(observation, capture_ns, observer);
   member.seen_s = now_s_;
 }
 
 void PeopleCapture::Divide(const VoxelGrid& grid) {
   flesh_.Divide(grid, posed_);
   outlines_.Divide(thinned_, posed_, flesh_);
-  for (const auto& member : members_) member->flesh = nullptr, member->outlines = nullptr;
+  for (const auto& member : members_) {
+    member->flesh = nullptr;
+    member->outlines = nullptr;
+    member->keypoints = {};
+  }
   for (std::size_t i = 0; i < posed_.size(); ++i) {
     Member& member = *posed_member_[i];
     member.flesh = &flesh_.shares()[i];
@@ -191,6 +199,20 @@ void PeopleCapture::Divide(const VoxelGrid& grid) {
     member.box_W =
         DownToFloor(posed_[i].box_W, kAsideMm - posed_[i].reach_mm).merged(member.flesh->box_W);
   }
+}
+
+void PeopleCapture::DivideKeypoints(std::span<const KeypointRays> views, std::int64_t capture_ns) {
+  std::vector<PosedBody> bodies(posed_member_.size());
+  for (std::size_t i = 0; i < bodies.size(); ++i) {
+    const MotionCapture& capture = *posed_member_[i]->capture;
+    bodies[i].Set(capture.body(), capture.PredictedPose(capture_ns));
+  }
+  std::vector<Eigen::AlignedBox3d> strangers;
+  for (const FleshShare& flesh : flesh_.strangers())
+    strangers.push_back(AroundStranger(flesh.box_W));
+  keypoints_.Divide(views, bodies, strangers);
+  for (std::size_t i = 0; i < bodies.size(); ++i)
+    posed_member_[i]->keypoints = keypoints_.shares()[i];
 }
 
 // Assigns strange flesh to the newcomer it was before, or to a new one. When tracking begins,
@@ -214,6 +236,7 @@ void PeopleCapture::MeetStrangers(std::span<const CameraEye> eyes) {
     if (now_s_ - *member->waits_since_s < wanted_s) continue;
     member->flesh = &flesh;
     member->outlines = &share;
+    member->keypoints = keypoints_.shares()[posed_.size() + i];
     member->box_W = AroundStranger(flesh.box_W);
   }
 }
@@ -240,8 +263,9 @@ void PeopleCapture::UpdateMembers(std::int64_t capture_ns, UpdateObserver* obser
       if (!member->beside) member->capture->Update({VoxelGrid(), {}}, capture_ns, observer);
       continue;
     }
-    const Observation observation(member->flesh->flesh, member->outlines->own, member->box_W,
-                                  member->flesh->room, member->outlines->near);
+    Observation observation(member->flesh->flesh, member->outlines->own, member->box_W,
+                            member->flesh->room, member->outlines->near);
+    observation.keypoints = member->keypoints;
     if (options_.side && !posed_.empty() && !member->has_pose() && !member->beside)
       member->beside = options_.side->Begin(member->capture);
     if (member->beside) {

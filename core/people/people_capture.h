@@ -14,6 +14,7 @@
 
 #include "core/body/recognition.h"
 #include "core/motion_capture.h"
+#include "core/people/keypoint_division.h"
 #include "core/people/member.h"
 #include "core/reconstruction/carving/carving_view.h"
 
@@ -90,6 +91,7 @@ class PeopleCapture {
   bool IsAlone(const VoxelGrid& grid);
   void UpdateAlone(const Observation& room, std::int64_t capture_ns, UpdateObserver* observer);
   void Divide(const VoxelGrid& grid);
+  void DivideKeypoints(std::span<const KeypointRays> views, std::int64_t capture_ns);
   void MeetStrangers(std::span<const CameraEye> eyes);
   Member* MemberFor(const Vector3& middle_W);
   void UpdateMembers(std::int64_t capture_ns, UpdateObserver* observer);
@@ -113,6 +115,7 @@ class PeopleCapture {
   VoxelGrid believed_, flesh_of_one_;
   FleshDivision flesh_;
   OutlineDivision outlines_;
+  KeypointDivision keypoints_;
   std::vector<Outline> thinned_;
   std::vector<PersonView> people_;
 };

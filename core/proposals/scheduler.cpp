@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/proposals/keypoint_proposals.h"
+
 namespace mocap {
 namespace {
 
@@ -92,6 +94,15 @@ void Scheduler::TryLimbs(std::size_t which, Objective& objective, const Hypothes
   for (const PoseState& pose : poses_) hypotheses.Vary(objective, *varied_, pose);
 }
 
+void Scheduler::TryKeypoints(Objective& objective, HypothesisSet& hypotheses) {
+  const auto& views = objective.evidence().recent_keypoints;
+  if (views.empty()) return;
+  varied_ = hypotheses.best();
+  poses_.clear();
+  ProposeByKeypoints(objective, *varied_, views, poses_);
+  for (const PoseState& pose : poses_) hypotheses.Vary(objective, *varied_, pose);
+}
+
 bool Scheduler::TryNewcomer(Objective& objective, HypothesisSet& hypotheses) {
   const auto is_on_trial = [](const Hypothesis& one) { return one.trials > 0; };
   const auto newcomer = std::ranges::find_if(hypotheses.all(), is_on_trial);
@@ -120,6 +131,7 @@ void Scheduler::Try(Objective& objective, HypothesisSet& hypotheses, bool sizes_
                     double dt_s) {
   rest_s_ -= dt_s;
   allowance_ = std::min(allowance_ + kBudget.per_s * dt_s, kBudget.most_saved);
+  TryKeypoints(objective, hypotheses);
   while (allowance_ > 0) {
     const double before = objective.evaluations();
     if (!TryNewcomer(objective, hypotheses) && !GoOn(objective, hypotheses, sizes_are_known, dt_s))

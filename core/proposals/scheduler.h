@@ -17,10 +17,10 @@ double EffortWithin(double dt_s);
 /// Proposes poses. The budget is counted in evaluations of the objective per second of capture
 /// time.
 ///
-/// While no part explains some rays, each arm and leg is tried elsewhere, then both arms and both
-/// legs. If the fit is bad or the person faces backwards, whole stances are tried. A newcomer
-/// has all limbs tried first. Rounds without a change of mind are repeated after longer and
-/// longer rests.
+/// Whenever pose networks have looked, what they suggest is tried. While no part explains some
+/// rays, each arm and leg is tried elsewhere, then both arms and both legs. If the fit is bad or
+/// the person faces backwards, whole stances are tried. A newcomer has all limbs tried first.
+/// Rounds without a change of mind are repeated after longer and longer rests.
 class Scheduler {
  public:
   explicit Scheduler(const BodyTable& table)
@@ -46,6 +46,7 @@ class Scheduler {
   // Tries one limb, or a pair after the limbs, elsewhere.
   void TryLimbs(std::size_t which, Objective& objective, const Hypothesis& present,
                 HypothesisSet& hypotheses);
+  void TryKeypoints(Objective& objective, HypothesisSet& hypotheses);
   // Tries a limb of a hypothesis that is on trial; false: there is none.
   bool TryNewcomer(Objective& objective, HypothesisSet& hypotheses);
   // Goes on with the present round; false: it rests.

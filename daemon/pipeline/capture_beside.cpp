@@ -24,6 +24,7 @@ struct CaptureBeside::Queue {
   struct Seen {
     VoxelGrid flesh, room;
     std::vector<Outline> outlines, borders;
+    std::vector<KeypointRays> keypoints;
     Eigen::AlignedBox3d box_W;
     std::int64_t capture_ns = 0;
   };
@@ -44,8 +45,9 @@ void CaptureBeside::Queue::Work() {
   do {
     while (has_more()) {
       const Seen& next = At(taken);
-      capture->Update({next.flesh, next.outlines, next.box_W, next.room, next.borders},
-                      next.capture_ns);
+      Observation observation(next.flesh, next.outlines, next.box_W, next.room, next.borders);
+      observation.keypoints = next.keypoints;
+      capture->Update(observation, next.capture_ns);
       const bool has_found = capture->result().state != CaptureState::kSearching;
       taken = has_found ? taken + 1 : std::max(taken + 1, pushed - 1);
     }
@@ -73,6 +75,7 @@ void CaptureBeside::See(const Observation& observation, std::int64_t capture_ns)
   seen.room = observation.room;
   seen.outlines.assign(observation.outlines.begin(), observation.outlines.end());
   seen.borders.assign(observation.borders.begin(), observation.borders.end());
+  seen.keypoints.assign(observation.keypoints.begin(), observation.keypoints.end());
   seen.box_W = observation.box_W;
   seen.capture_ns = capture_ns;
   ++queue.pushed;

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "core/quantile.h"
+#include "drivers/clock.h"
 
 namespace mocap {
 namespace {
@@ -35,7 +36,8 @@ bool KeypointInbox::Add(const std::string& sender, KeypointView view, int droppe
   ++from->waiting;
   ++from->counts.taken;
   from->counts.dropped_points += dropped_points;
-  waiting_.push_back({sender, std::move(view)});
+  view.sender = sender;
+  waiting_.push_back(std::move(view));
   return true;
 }
 
@@ -53,13 +55,19 @@ void KeypointInbox::TakeFor(std::int64_t capture_ns, std::vector<KeypointView>& 
   const std::unique_lock lock(mutex_, std::try_to_lock);
   if (!lock.owns_lock()) return;
   RemoveOld(capture_ns);
-  const auto is_later = [capture_ns](const Waiting& w) { return w.view.capture_ns > capture_ns; };
+  const auto is_later = [capture_ns](const KeypointView& view) {
+    return view.capture_ns > capture_ns;
+  };
   const auto taken = std::stable_partition(waiting_.begin(), waiting_.end(), is_later);
   for (auto each = taken; each != waiting_.end(); ++each) {
     if (Sender* const from = Find(each->sender)) --from->waiting;
-    views.push_back(std::move(each->view));
+    views.push_back(std::move(*each));
   }
   waiting_.erase(taken, waiting_.end());
+}
+
+void KeypointInbox::Tell(const KeypointView& view, double agreement) {
+  Tell(view.sender, agreement, SteadyNs());
 }
 
 void KeypointInbox::Tell(const std::string& sender, double agreement, std::int64_t steady_ns) {
@@ -117,9 +125,9 @@ KeypointInbox::Sender* KeypointInbox::FindOrAdd(const std::string& name, std::in
 
 /// Nobody has taken them in time.
 void KeypointInbox::RemoveOld(std::int64_t now_ns) {
-  std::erase_if(waiting_, [&](const Waiting& waiting) {
-    const bool is_old = now_ns - waiting.view.capture_ns > kMemoryNs;
-    Sender* const from = is_old ? Find(waiting.sender) : nullptr;
+  std::erase_if(waiting_, [&](const KeypointView& view) {
+    const bool is_old = now_ns - view.capture_ns > kMemoryNs;
+    Sender* const from = is_old ? Find(view.sender) : nullptr;
     if (from) {
       --from->waiting;
       --from->counts.taken;

@@ -40,6 +40,7 @@ class KeypointInbox : public KeypointSource {
 
   /// Leaves views of later moments for later sets.
   void TakeFor(std::int64_t capture_ns, std::vector<KeypointView>& views) override;
+  void Tell(const KeypointView& view, double agreement) override;
   /// Notes how well a sender's view agrees with the pose. @param agreement  0 to 1.
   void Tell(const std::string& sender, double agreement, std::int64_t steady_ns);
 
@@ -58,11 +59,6 @@ class KeypointInbox : public KeypointSource {
     std::size_t waiting = 0;
     std::deque<Timed> lags_ms, agreements;  ///< Of the last seconds.
   };
-  struct Waiting {
-    std::string sender;
-    KeypointView view;
-  };
-
   Sender* Find(const std::string& name);
   Sender* FindOrAdd(const std::string& name, std::int64_t steady_ns);
   void RemoveOld(std::int64_t now_ns);
@@ -70,7 +66,7 @@ class KeypointInbox : public KeypointSource {
 
   mutable std::mutex mutex_;  ///< The tracking thread tries it, but never waits.
   std::deque<Sender> senders_;
-  std::deque<Waiting> waiting_;
+  std::deque<KeypointView> waiting_;
   std::int64_t strangers_ = 0;
   std::atomic<std::int64_t> set_ns_{0};
 };

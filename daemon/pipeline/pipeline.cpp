@@ -85,6 +85,7 @@ Pipeline::Pipeline(Studio studio, const PipelineOptions& options, const BodyTabl
     others_.emplace_back(MakePeople(options, body, nullptr), options.latency_origin, *other.sink,
                          recorders_);
   const std::vector<CameraCalibration> calibrations = CalibrationsOf(studio);
+  keypoints_.emplace(options.keypoints, calibrations);
   const int rays = kRaysPerPerson * FinenessFor(options.people);
   carve_ = std::make_unique<CarveStage>(
       calibrations, MakeSynchronizer(studio, options.overflow),
@@ -185,9 +186,11 @@ void Pipeline::RunTracking() {
 
 // Everything before tracking is as without sets left out: what cameras show stays the same.
 void Pipeline::Track(const CarvedSet& set) {
-  if (set.frame >= options_.first_set) track_.Process(set);
+  const std::vector<KeypointRays>& keypoints = keypoints_->For(set);
+  if (set.frame >= options_.first_set) track_.Process(set, keypoints);
+  keypoints_->Tell(track_.people());
   for (std::size_t i = 0; i < others_.size(); ++i)
-    if (set.frame >= options_.other_starts[i].first_set) others_[i].Process(set);
+    if (set.frame >= options_.other_starts[i].first_set) others_[i].Process(set, keypoints);
 }
 
 void Pipeline::ChangeSubject(const std::optional<KnownPerson>& subject) {

@@ -16,6 +16,7 @@
 #include "daemon/pipeline/frame_path.h"
 #include "daemon/pipeline/grid_shelf.h"
 #include "daemon/pipeline/health_watch.h"
+#include "daemon/pipeline/keypoint_feed.h"
 #include "daemon/pipeline/pose_sink.h"
 #include "daemon/pipeline/side_thread.h"
 #include "daemon/pipeline/spsc_queue.h"
@@ -87,6 +88,7 @@ class Pipeline : public FramePath {
   SpscQueue<CarvedSet> sets_;
   GridShelf grids_;                   ///< Of sets_.
   std::unique_ptr<SideThread> side_;  ///< Live, with several people.
+  std::optional<KeypointFeed> keypoints_;
   TrackStage track_;
   std::deque<TrackStage> others_;  ///< Of options_.other_starts.
   std::unique_ptr<CameraLines> lines_;

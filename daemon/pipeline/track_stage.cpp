@@ -72,12 +72,13 @@ void TrackStage::TakeRequests() {
   }
 }
 
-void TrackStage::Process(const CarvedSet& set) {
+void TrackStage::Process(const CarvedSet& set, std::span<const KeypointRays> keypoints) {
   TakeRequests();
   stage_ns_ = {};
   const std::int64_t begin_ns = mark_ns_ = SteadyNs();
   Observation room(set.grid, set.outlines, set.person_box_W);
   room.doubtful = set.doubtful;
+  room.keypoints = keypoints;
   people_.Update(room, set.eyes, Onward(set.capture_ns), this);
   const MotionCapture& first = people_.first();
   const std::int64_t update_ns = SteadyNs() - begin_ns;

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <span>
 
 #include "core/people/people_capture.h"
 #include "daemon/pipeline/carve_stage.h"
@@ -24,7 +25,8 @@ class TrackStage : private UpdateObserver {
 
   ~TrackStage();
 
-  void Process(const CarvedSet& set);
+  /// @param keypoints  that have come for the set.
+  void Process(const CarvedSet& set, std::span<const KeypointRays> keypoints = {});
   /// From the next set on, tracks a person of these sizes. Without sizes, measures those who are
   /// present. Any thread.
   /// @param subject  if its name is empty, nobody is named.
@@ -33,6 +35,8 @@ class TrackStage : private UpdateObserver {
   void KnowPeople(const std::vector<KnownPerson>& people);
   /// From the next set on, names the person with this number. One thread at a time.
   void NamePerson(int id, const std::string& name);
+  /// The tracked people after the last set; tracking thread only.
+  std::span<const PersonView> people() const { return people_.people(); }
   std::int64_t sets() const { return sets_.load(std::memory_order_relaxed); }
   CaptureState state() const { return state_.load(std::memory_order_relaxed); }
 

@@ -37,7 +37,7 @@ const std::map<std::string, std::map<std::string, std::set<std::string>>> kInner
       {"proposals", {"body", "evidence", "hypotheses", "objective", "reconstruction"}},
       {"mikic2003", {"body", "reconstruction"}},
       {"evaluation", {"body"}},
-      {"people", {"body", "evidence", "reconstruction"}},
+      {"people", {"body", "evidence", "objective", "reconstruction"}},
       {"solving",
        {"body", "evidence", "hypotheses", "objective", "people", "proposals", "reconstruction"}}}},
     {"drivers",
