@@ -48,7 +48,7 @@ class SurfaceCapture : public MotionCapture {
     const double dt_s = static_cast<double>(passed_ns) * 1e-9;
     last_ns_ = capture_ns;
     Gather(observation, dt_s);
-    WeighKeypoints(dt_s);
+    WeighKeypoints();
     if (observer) observer->OnStageEnd(UpdateStage::kLabel);
     result_.body_changed = false;
     result_.voxels = evidence_.cloud.size();
@@ -100,15 +100,12 @@ class SurfaceCapture : public MotionCapture {
     return history_.NearestTo(*last_ns_ - std::llround(before_s * 1e9));
   }
 
-  // Frames count less the closer they are in time, and views the closer to their camera's last one.
-  void WeighKeypoints(double dt_s) {
-    const double frame_worth = hypotheses_.empty() ? kFrameWorth : FrameWorth(std::max(dt_s, 1e-3));
+  void WeighKeypoints() {
     for (KeypointRays& view : evidence_.keypoints) {
       const std::int64_t seen_ns = *last_ns_ + std::llround(view.after_s * 1e9);
       const auto [last, is_first] = last_views_ns_.try_emplace(view.camera, seen_ns);
-      const double after_s =
-          static_cast<double>(std::max<std::int64_t>(0, seen_ns - last->second)) * 1e-9;
-      view.worth = (is_first ? 1 : WorthOfNextView(after_s)) / frame_worth;
+      const std::int64_t after_ns = std::max<std::int64_t>(0, seen_ns - last->second);
+      view.worth = is_first ? 1 : WorthOfNextView(static_cast<double>(after_ns) * 1e-9);
       last->second = seen_ns;
     }
   }

@@ -23,7 +23,7 @@ struct KeypointRays {
   int view = 0;  ///< Number of the view in its set.
   int camera = 0;
   double after_s = 0;  ///< When the picture was taken, after the time of the set.
-  /// How much its -log p counts. More than 1 where one view speaks for several sets.
+  /// How much its -log p counts, 0 to 1: errors of successive views of a camera are alike.
   double worth = 1;
   std::vector<KeypointRay> rays;
 };

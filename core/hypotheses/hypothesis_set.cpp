@@ -32,12 +32,17 @@ void FollowLeap(Objective& objective, const Vector3& unforeseen_W, Hypothesis& h
 
 double FrameWorth(double dt_s) { return kFrameWorth * std::min(1.0, dt_s / kOdds.alike_s); }
 
+double HypothesisSet::NatsOf(const Fitness& fitness) const {
+  const double keypoints = fitness[Term::kKeypoints];
+  return worth_ * (fitness.Sum() - keypoints) + kViewWorth * keypoints;
+}
+
 void HypothesisSet::Begin(std::vector<Hypothesis> hypotheses,
                           const std::optional<Vector3>& middle_W) {
   hypotheses_ = std::move(hypotheses);
   middle_W_ = middle_W;
   worth_ = kFrameWorth;
-  for (Hypothesis& hypothesis : hypotheses_) hypothesis.nats = worth_ * hypothesis.fitness.Sum();
+  for (Hypothesis& hypothesis : hypotheses_) hypothesis.nats = NatsOf(hypothesis.fitness);
   Judge();
 }
 
@@ -52,13 +57,13 @@ void HypothesisSet::Follow(Objective& objective, double dt_s) {
     if (middle_W_ && unforeseen_W.norm() > kOdds.leap_mm)
       FollowLeap(objective, unforeseen_W, hypothesis);
     hypothesis.Fit(objective);
-    hypothesis.nats += worth_ * hypothesis.fitness.Sum();
+    hypothesis.nats += NatsOf(hypothesis.fitness);
   }
   middle_W_ = middle_W;
   // As long as its limbs may be elsewhere, what it explained before counts for nothing.
   for (Hypothesis& hypothesis : hypotheses_)
     if (hypothesis.trials > 0)
-      hypothesis.nats = best().nats + worth_ * (hypothesis.fitness.Sum() - best().fitness.Sum());
+      hypothesis.nats = best().nats + NatsOf(hypothesis.fitness) - NatsOf(best().fitness);
   Judge();
 }
 
@@ -73,7 +78,7 @@ void HypothesisSet::Vary(Objective& objective, Hypothesis& present, const PoseSt
   Hypothesis offered = std::move(removed_.back());
   removed_.pop_back();
   offered.Jump(objective, pose);
-  offered.nats += worth_ * (offered.fitness.Sum() - present.fitness.Sum());
+  offered.nats += NatsOf(offered.fitness) - NatsOf(present.fitness);
   if (offered.nats < present.nats) {
     for (Hypothesis& one : hypotheses_)
       if (AreSame(one, present)) one.trials = 0;

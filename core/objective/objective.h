@@ -46,6 +46,7 @@ struct Fitness {
   bool IsCredible() const;
   bool IsLost() const;
   double& operator[](Term term) { return nats[static_cast<std::size_t>(term)]; }
+  double operator[](Term term) const { return nats[static_cast<std::size_t>(term)]; }
   double Sum() const { return std::accumulate(nats.begin(), nats.end(), 0.0); }
 };
 

@@ -35,28 +35,46 @@ void FitToKeypoints(const BodyModel& body, std::span<const KeypointRays> views, 
       kIterations);
 }
 
-// Which way the limbs are is not known after a turn.
-PoseState TurnedAbout(const BodyModel& body, PoseState pose) {
-  pose.X_WT.R = ExpRotation(std::numbers::pi * Vector3::UnitZ()) * pose.X_WT.R;
-  pose.theta = AnglesOf({}, body.table());
-  return pose;
+// The trunk as it is, and turned about each of its axes: facing the other way, or head down. Which
+// way the limbs are is not known after a turn.
+std::array<PoseState, 4> StartsFrom(const BodyModel& body, const PoseState& pose) {
+  std::array<PoseState, 4> starts = {pose, pose, pose, pose};
+  for (int axis = 0; axis < 3; ++axis) {
+    PoseState& turned = starts[static_cast<std::size_t>(axis) + 1];
+    turned.X_WT.R = pose.X_WT.R * ExpRotation(std::numbers::pi * Vector3::Unit(axis));
+    turned.theta = AnglesOf({}, body.table());
+  }
+  return starts;
+}
+
+double NatsAt(const BodyModel& body, const PoseState& pose, std::span<const KeypointRays> views) {
+  PosedBody posed;
+  posed.Set(body, pose);
+  double nats = 0;
+  for (const KeypointRays& view : views) nats += KeypointTerm::NatsOf(view, posed);
+  return nats;
 }
 
 }  // namespace
 
-void ProposeByKeypoints(Objective& objective, const Hypothesis& present,
-                        std::span<const KeypointRays> views, std::vector<PoseState>& poses) {
+std::optional<PoseState> ProposeByKeypoints(Objective& objective, const Hypothesis& present,
+                                            std::span<const KeypointRays> views) {
   const BodyModel& body = present.body;
-  const PoseState& pose = present.filter.pose();
-  for (const PoseState& start : {pose, TurnedAbout(body, pose)}) {
-    PoseFilter filter{MotionNoise{}};
+  PoseFilter filter{MotionNoise{}};
+  std::optional<PoseState> best;
+  double least = NatsAt(body, present.filter.pose(), views);
+  for (const PoseState& start : StartsFrom(body, present.filter.pose())) {
     filter.Reset(start, kSpread_mm, kSpread_rad);
     for (const double width : kWidths) FitToKeypoints(body, views, width, filter);
-    if (!filter.is_sound()) continue;
-    filter.Reset(filter.pose(), kLeft_mm, kLeft_rad);
-    DrawNear(objective, body, present.things, {}, filter);
-    if (filter.is_sound()) poses.push_back(filter.pose());
+    const double nats = NatsAt(body, filter.pose(), views);
+    if (!filter.is_sound() || !(nats < least)) continue;
+    least = nats;
+    best = filter.pose();
   }
+  if (!best) return std::nullopt;
+  filter.Reset(*best, kLeft_mm, kLeft_rad);
+  DrawNear(objective, body, present.things, {}, filter);
+  return filter.is_sound() ? std::optional(filter.pose()) : std::nullopt;
 }
 
 }  // namespace mocap

@@ -98,9 +98,8 @@ void Scheduler::TryKeypoints(Objective& objective, HypothesisSet& hypotheses) {
   const auto& views = objective.evidence().recent_keypoints;
   if (views.empty()) return;
   varied_ = hypotheses.best();
-  poses_.clear();
-  ProposeByKeypoints(objective, *varied_, views, poses_);
-  for (const PoseState& pose : poses_) hypotheses.Vary(objective, *varied_, pose);
+  if (const auto pose = ProposeByKeypoints(objective, *varied_, views))
+    hypotheses.Vary(objective, *varied_, *pose);
 }
 
 bool Scheduler::TryNewcomer(Objective& objective, HypothesisSet& hypotheses) {
@@ -122,7 +121,7 @@ void Scheduler::TryStances(Objective& objective, HypothesisSet& hypotheses, bool
   for (Hypothesis& found : FindAnybody(objective, known, {EffortWithin(dt_s), believed.things})) {
     if (sizes_are_known) found.sizes = believed.sizes;
     const Hypothesis& best = hypotheses.best();
-    found.nats = best.nats + hypotheses.frame_worth() * (found.fitness.Sum() - best.fitness.Sum());
+    found.nats = best.nats + hypotheses.NatsOf(found.fitness) - hypotheses.NatsOf(best.fitness);
     hypotheses.Offer(found);
   }
 }

@@ -231,7 +231,9 @@ TEST_F(Odds, OfOneFrameAfterAGapCountAsOneFrame) {
     HypothesisSet set = SetWith({other});
     blind_.SetEvidence(evidence_);
     set.Follow(blind_, gap_s);
-    EXPECT_LE(set.frame_worth(), 1);
+    Fitness nat;
+    nat[Term::kRays] = 1;
+    EXPECT_LE(set.NatsOf(nat), 1);
     return set.all()[1].nats;
   };
   EXPECT_NEAR(after(3), after(30), 1e-9);
