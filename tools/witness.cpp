@@ -59,7 +59,7 @@ std::vector<std::string> WordsOf(const CLI::App& command) {
 void AddWitnessCommand(CLI::App& app) {
   auto options = std::make_shared<WitnessOptions>();
   CLI::App* command =
-      app.add_subcommand("witness", "Find points of the people in a take by a neural network");
+      app.add_subcommand("witness", "Find points of people by a neural network, live or in a take");
   AddWitnessOptions(*command, *options);
   // They are the program's; here they are checked, and explained where it is not installed.
   command->callback([command, options] { BecomeWitness(WordsOf(*command)); });

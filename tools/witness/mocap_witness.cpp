@@ -14,6 +14,7 @@
 #include "tools/remarks.h"
 #include "tools/stop_on_signals.h"
 #include "tools/witness/fetch_model.h"
+#include "tools/witness/run_live_witness.h"
 #include "tools/witness/self_test.h"
 #include "tools/witness/witness_take.h"
 #include "tools/witness_options.h"
@@ -42,8 +43,20 @@ std::filesystem::path ModelOf(const WitnessOptions& options) {
   return fetched;
 }
 
+void Live(const WitnessOptions& options) {
+  if (!options.out.empty()) throw CLI::RequiredError("TAKE");
+  StopOnSignals();
+  const std::filesystem::path model = ModelOf(options);
+  PoseNetwork network(model);
+  RequireGoodAnswers(network, model);
+  RunLiveWitness({.url = options.url,
+                  .prefix = options.prefix,
+                  .rate_hz = options.rate_hz,
+                  .share = options.share_percent / 100},
+                 network);
+}
+
 void Witness(const WitnessOptions& options) {
-  if (options.take.empty()) throw CLI::RequiredError("TAKE");
   if (options.out.empty()) throw CLI::RequiredError("--out");
   StopOnSignals();
   RequireWritable(options.out);
@@ -66,6 +79,11 @@ void Witness(const WitnessOptions& options) {
     TellRemarks("witness", {"the network gave no points for " + Counted(witnessed.failed, "look")});
 }
 
+void Run(const WitnessOptions& options) {
+  if (options.fetch) return Fetch(options);
+  options.take.empty() ? Live(options) : Witness(options);
+}
+
 }  // namespace
 }  // namespace mocap
 
@@ -74,7 +92,7 @@ int main(int argc, char** argv) {
   app.set_version_flag("--version", MOCAP_VERSION);
   mocap::WitnessOptions options;
   mocap::AddWitnessOptions(app, options);
-  app.callback([&options] { options.fetch ? mocap::Fetch(options) : mocap::Witness(options); });
+  app.callback([&options] { mocap::Run(options); });
   const int status = mocap::RunProgram(app, argc, argv);
   if (status != 0) mocap::EndBySignal();
   return status;

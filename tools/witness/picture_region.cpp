@@ -34,12 +34,15 @@ int TurnsAt(const CameraCalibration& camera, const RigidTransform& X_CW, const V
   const auto below = PixelOf(camera, X_CW * p_W);
   const auto above = PixelOf(camera, X_CW * (p_W + 100 * Vector3::UnitZ()));
   if (!below || !above) return 0;
-  const Vector2 up = *above - *below;
-  const double quarters = std::atan2(-up.x(), -up.y()) / (std::numbers::pi / 2);
-  return static_cast<int>(std::lround(quarters) + 4) % 4;
+  return TurnsFor(*above - *below);
 }
 
 }  // namespace
+
+int TurnsFor(const Vector2& up) {
+  const double quarters = std::atan2(-up.x(), -up.y()) / (std::numbers::pi / 2);
+  return static_cast<int>(std::lround(quarters) + 4) % 4;
+}
 
 CropMap MapOf(const PictureRegion& region, int crop_width_px, int crop_height_px) {
   constexpr std::array<int, 4> kCosines = {1, 0, -1, 0};

@@ -20,6 +20,9 @@ struct PictureRegion {
   int turns = 0;         ///< Quarter turns to the right that make the picture upright: 0 to 3.
 };
 
+/// The turns that make a picture upright in which up is that direction.
+int TurnsFor(const Vector2& up);
+
 /// Takes points of a crop to the picture. Pixel centres lie at integers in both.
 struct CropMap {
   Eigen::Matrix2d turn_and_scale = Eigen::Matrix2d::Identity();
