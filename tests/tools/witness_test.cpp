@@ -34,6 +34,7 @@ TEST_F(LoneMocap, LetsItsWitnessDoWhatIsAsked) {
   EXPECT_EQ(Run("a/take --out k.csv --rate 2 --cameras cam1,cam2"),
             "--out=k.csv --rate=2 --cameras=cam1 --cameras=cam2 -- a/take\n");
   EXPECT_EQ(Run("--fetch"), "--fetch=true --\n");
+  EXPECT_EQ(Run("--share 20 --prefix left."), "--share=20 --prefix=left. --\n");
 }
 
 TEST_F(LoneMocap, SaysInWhichPackageTheWitnessIs) {

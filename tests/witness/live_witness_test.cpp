@@ -205,8 +205,8 @@ TEST(WitnessPace, KeepsWithinItsShare) {
   pace.Note(kSecond_ns, kLook_ns);
   EXPECT_EQ(pace.next_ns(), kSecond_ns + 5 * kLook_ns);
   EXPECT_EQ(pace.Rate(1, false), 3);
-  EXPECT_DOUBLE_EQ(pace.Rate(1, true), 4);
-  EXPECT_DOUBLE_EQ(pace.Rate(2, false), 2);
+  EXPECT_DOUBLE_EQ(pace.Rate(1, true), 3.6);
+  EXPECT_DOUBLE_EQ(pace.Rate(2, false), 1.8);
 }
 
 }  // namespace

@@ -7,6 +7,8 @@ namespace {
 
 /// Weight of the latest look in the mean.
 constexpr double kLatestWeight = 0.2;
+/// Part of the share that is asked for: pictures that come as fast as looks may begin would wait.
+constexpr double kAskedPart = 0.9;
 /// What a request may ask for.
 constexpr double kLeastPicturesHz = 0.2, kMostPicturesHz = 30;
 
@@ -21,8 +23,8 @@ void WitnessPace::Note(std::int64_t begin_ns, std::int64_t cpu_ns) {
 double WitnessPace::Rate(int people, bool is_in_doubt) const {
   const double wanted_hz = is_in_doubt ? 2 * rate_hz_ : rate_hz_;
   const double picture_s = look_ns_ * 1e-9 * std::max(1, people);
-  const double rate_hz = picture_s * wanted_hz > share_ ? share_ / picture_s : wanted_hz;
-  return std::clamp(rate_hz, kLeastPicturesHz, kMostPicturesHz);
+  const double affordable_hz = kAskedPart * share_ / std::max(1e-9, picture_s);
+  return std::clamp(std::min(wanted_hz, affordable_hz), kLeastPicturesHz, kMostPicturesHz);
 }
 
 }  // namespace mocap
