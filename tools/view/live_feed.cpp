@@ -11,9 +11,9 @@
 #include "daemon/base/json.h"
 #include "daemon/messages/channel_name.h"
 #include "daemon/messages/decode_message.h"
+#include "daemon/messages/keypoint_message.h"
 #include "daemon/messages/reduced_picture.h"
 #include "daemon/messages/status_messages.h"
-#include "daemon/pipeline/carve_stage.h"
 #include "drivers/clock.h"
 #include "tools/page/picture_lines.h"
 #include "tools/report/body_outline.h"
@@ -90,6 +90,7 @@ LiveFeed::LiveFeed(lcm::LCM& lcm, const std::string& prefix, std::string url, Pu
   lcm.subscribe(named + kServiceChannel, &LiveFeed::OnService, this);
   lcm.subscribe(named + kContrastChannel, &LiveFeed::OnContrast, this);
   lcm.subscribe(named + kKeypointSendersChannel, &LiveFeed::OnKeypointSenders, this);
+  lcm.subscribe(named + kKeypointsChannel, &LiveFeed::OnKeypoints, this);
   lcm.subscribe(named + "MOCAP_STUDIO", &LiveFeed::OnStudio, this);
   lcm.subscribe(named + "MOCAP_UNKNOWN", &LiveFeed::OnUnknown, this);
   lcm.subscribe(named + "MOCAP_PREVIEW", &LiveFeed::OnPreview, this);
@@ -207,6 +208,23 @@ void LiveFeed::OnKeypointSenders(const lcm::ReceiveBuffer* buffer, const std::st
     TakeKeypointSenders(*senders, report_);
 }
 
+// Anyone may send them: those of a moment that is not shown would displace others.
+void LiveFeed::OnKeypoints(const lcm::ReceiveBuffer* buffer, const std::string&) {
+  const std::optional<keypoints_t> message = Decoded<keypoints_t>(*buffer);
+  if (!message || !IsSound(*message) || poses_.empty()) return;
+  const std::int64_t shown_ns = poses_.back().front().row.timestamp_ns;
+  if (std::abs(message->capture_ns - shown_ns) > kKeypointsShownNs) return;
+  const auto found = std::ranges::find(cameras_, message->camera, &CameraCalibration::name);
+  if (found == cameras_.end()) return;
+  const auto camera = static_cast<std::size_t>(found - cameras_.begin());
+  KeypointView view = UsableOf(*message, *found).view;
+  if (view.points.empty()) return;
+  view.sender = message->sender;
+  ShownKeypoints& shown = keypoints_[camera];
+  shown.Add(std::move(view));
+  put_(kKeypoints + camera, For(kKeypointsShownNs, Binary(shown.Bytes(static_cast<int>(camera)))));
+}
+
 void LiveFeed::OnStudio(const lcm::ReceiveBuffer* buffer, const std::string&) {
   std::optional<studio_t> studio = Decoded<studio_t>(*buffer);
   if (!studio || (studio->calibration == studio_.calibration && studio->name == studio_.name)) {
@@ -224,6 +242,7 @@ void LiveFeed::OnStudio(const lcm::ReceiveBuffer* buffer, const std::string&) {
   studio_ = std::move(*studio);
   waiting_.clear();
   unknown_.clear();
+  keypoints_.clear();
   X_CW_.clear();
   for (const CameraCalibration& camera : cameras_) X_CW_.push_back(camera.X_CW);
   PutStudio();

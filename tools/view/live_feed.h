@@ -16,17 +16,20 @@
 
 #include "core/reconstruction/camera/camera_model.h"
 #include "daemon/messages/silence.h"
+#include "daemon/pipeline/carve_stage.h"
 #include "daemon/status/service_report.h"
 #include "tools/view/drawn_body.h"
 #include "tools/view/live_board.h"
 #include "tools/view/live_people.h"
+#include "tools/view/shown_keypoints.h"
 
 namespace mocap {
 
 /// Receives LCM messages and puts updates on the board. Single-threaded.
 class LiveFeed {
  public:
-  /// Slots of the board. From kPictures on, each camera's picture has its own.
+  /// Slots of the board. From kPictures on, each camera's picture has its own,
+  /// and from kKeypoints on its keypoints.
   enum Slot : std::size_t {
     kStudio,
     kBody,
@@ -35,7 +38,8 @@ class LiveFeed {
     kNotice,
     kPoses,  ///< Everyone's of one set; the person tracked longest is first.
     kVoxels,
-    kPictures
+    kPictures,
+    kKeypoints = kPictures + kMaxCameras
   };
   using Put = std::function<void(std::size_t slot, LiveMessage message)>;
 
@@ -65,6 +69,7 @@ class LiveFeed {
   void OnService(const lcm::ReceiveBuffer* buffer, const std::string& channel);
   void OnContrast(const lcm::ReceiveBuffer* buffer, const std::string& channel);
   void OnKeypointSenders(const lcm::ReceiveBuffer* buffer, const std::string& channel);
+  void OnKeypoints(const lcm::ReceiveBuffer* buffer, const std::string& channel);
   void OnStudio(const lcm::ReceiveBuffer* buffer, const std::string& channel);
   void OnUnknown(const lcm::ReceiveBuffer* buffer, const std::string& channel);
   void OnPreview(const lcm::ReceiveBuffer* buffer, const std::string& channel);
@@ -99,7 +104,8 @@ class LiveFeed {
   std::deque<std::vector<DrawnPose>> poses_;
   /// Pictures whose pose has not come yet, by camera.
   std::map<std::size_t, SeenPicture> waiting_;
-  std::map<std::string, unknown_t> unknown_;  ///< The latest, by camera.
+  std::map<std::size_t, ShownKeypoints> keypoints_;  ///< By camera.
+  std::map<std::string, unknown_t> unknown_;         ///< The latest, by camera.
 };
 
 }  // namespace mocap

@@ -14,6 +14,7 @@
 #include "daemon/messages/reduced_picture.h"
 #include "drivers/quoted.h"
 #include "drivers/take/input_file.h"
+#include "drivers/take/keypoint_table.h"
 #include "tools/kinematics/gait_events.h"
 #include "tools/page/picture_lines.h"
 #include "tools/report/body_outline.h"
@@ -21,6 +22,7 @@
 #include "tools/results/message_body.h"
 #include "tools/view/camera_json.h"
 #include "tools/view/drawn_body.h"
+#include "tools/view/shown_keypoints.h"
 #include "tools/view/wire.h"
 
 namespace mocap {
@@ -50,6 +52,11 @@ std::size_t NumberOf(const ViewRequest& request, const std::string& name, std::s
 std::string NameOf(const std::filesystem::path& folder) {
   const std::string name = folder.filename().string();
   return name.starts_with("person-") ? folder.parent_path().filename().string() + '/' + name : name;
+}
+
+std::vector<KeypointView> KeypointsIn(const std::filesystem::path& take) {
+  const std::filesystem::path table = take / "keypoints.csv";
+  return std::filesystem::exists(table) ? ReadKeypoints(table) : std::vector<KeypointView>();
 }
 
 /// Index of the row nearest to each of `times`, within a tolerance; -1: none.
@@ -147,7 +154,10 @@ Json ResultJson(const std::string& name, const Evaluation& evaluation,
 TakeSite::TakeSite(const std::filesystem::path& take,
                    const std::vector<std::filesystem::path>& results,
                    const std::optional<std::string>& prefix)
-    : pictures_(take), truth_(ReadTruePeople(take)), remarks_(pictures_.remarks()) {
+    : pictures_(take),
+      keypoints_(KeypointsIn(take)),
+      truth_(ReadTruePeople(take)),
+      remarks_(pictures_.remarks()) {
   const TakeIdentity identity(take);
   for (const std::filesystem::path& result : results) Add(identity, PlainFolder(result), prefix);
   ChooseTimes();
@@ -297,6 +307,7 @@ std::string TakeSite::Pictures(const ViewRequest& request) {
     std::vector<DrawnOutlines> bodies;
     if (result) bodies = BodiesOf(*result, frame, picture);
     bytes += DrawnOver(picture, pictures_.UnknownShareOf(picture, grid), std::move(bodies));
+    bytes += KeypointsOver(picture);
   }
   if (grid.size().isZero()) return bytes;
   voxels_t voxels;
@@ -318,6 +329,17 @@ std::vector<DrawnOutlines> TakeSite::BodiesOf(const ShownResult& chosen, std::si
                       .lines = PartOutlines(*row, sizes, camera, picture.X_CW)});
   }
   return bodies;
+}
+
+std::string TakeSite::KeypointsOver(const TakePicture& picture) const {
+  const std::string& camera = pictures_.cameras()[static_cast<std::size_t>(picture.camera)].name;
+  ShownKeypoints shown;
+  auto view = std::ranges::lower_bound(keypoints_, picture.capture_ns - kKeypointsShownNs, {},
+                                       &KeypointView::capture_ns);
+  for (; view != keypoints_.end() && view->capture_ns <= picture.capture_ns; ++view) {
+    if (view->camera == camera) shown.Add(*view);
+  }
+  return shown.Bytes(picture.camera);
 }
 
 std::string TakeSite::DrawnOver(const TakePicture& picture, std::optional<double> unknown_share,

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "core/evidence/keypoint_view.h"
 #include "drivers/pixels/jpeg_encoder.h"
 #include "tools/report/body_outline.h"
 #include "tools/report/people_evaluation.h"
@@ -20,6 +21,7 @@ namespace mocap {
 
 /// Answers /take.json, /poses.bin and /pictures.bin. Frames have the times of the first result. If
 /// that is of several people, or missing, they have the times of the camera with most frames.
+/// Keypoints are those of the take's keypoints.csv, if it has one.
 /// Thread-safe.
 class TakeSite {
  public:
@@ -59,6 +61,8 @@ class TakeSite {
   std::string Pictures(const ViewRequest& request);
   std::vector<DrawnOutlines> BodiesOf(const ShownResult& result, std::size_t frame,
                                       const TakePicture& picture) const;
+  /// Bytes of the keypoints over a picture.
+  std::string KeypointsOver(const TakePicture& picture) const;
   std::string DrawnOver(const TakePicture& picture, std::optional<double> unknown_share,
                         std::vector<DrawnOutlines> bodies);
   std::string PoseOf(const ShownResult& result, std::size_t frame) const;
@@ -70,6 +74,7 @@ class TakeSite {
   JpegEncoder encoder_;
   Image<Bgr> reduced_;
   std::vector<std::uint8_t> jpeg_;
+  std::vector<KeypointView> keypoints_;  ///< In order of time.
   std::vector<TruePerson> truth_;
   std::vector<ShownResult> results_;
   std::vector<std::string> remarks_;

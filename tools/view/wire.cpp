@@ -165,4 +165,19 @@ std::string PictureBytes(const DrawnPicture& picture) {
   return bytes;
 }
 
+std::string KeypointBytes(const KeypointView& view, int camera) {
+  ByteWriter writer;
+  writer.Add(std::uint8_t{4});
+  writer.Add(static_cast<std::uint8_t>(camera));
+  writer.Add(static_cast<std::uint16_t>(view.points.size()));
+  writer.Add(static_cast<std::uint32_t>(view.person));
+  writer.Add(static_cast<double>(view.capture_ns) / kNsPerMs);
+  for (const Keypoint& point : view.points) {
+    writer.Add(static_cast<float>(point.landmark));
+    writer.AddFloats(point.px);
+    writer.Add(point.score);
+  }
+  return writer.Take();
+}
+
 }  // namespace mocap

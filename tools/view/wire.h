@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "core/body/body_shape.h"
+#include "core/evidence/keypoint_view.h"
 #include "core/geometry.h"
 #include "core/motion_capture.h"
 #include "tools/report/body_outline.h"
@@ -68,5 +69,9 @@ struct DrawnPicture {
 /// line is f32 count, f32 kind and count × f32 x, y. The kind is, in the trimap, 0 for people and 1
 /// for unknown pixels; of bodies, the side (0 middle, 1 left, 2 right) + 4 × (person + 1).
 std::string PictureBytes(const DrawnPicture& picture);
+
+/// 16 bytes and 16 per point: u8 kind = 4, camera; u16 points; u32 person; f64 capture [ms]; then
+/// f32 number of the landmark, x, y [px], score.
+std::string KeypointBytes(const KeypointView& view, int camera);
 
 }  // namespace mocap

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <fstream>
 #include <nlohmann/json.hpp>
 
 #include "core/errors.h"
@@ -16,14 +17,19 @@ using ::mocap::testing::kFirstNs;
 using ::mocap::testing::kFrames;
 using ::mocap::testing::kPeriodNs;
 
-/// Where each message of /pictures.bin begins.
+/// Where the message of a picture ends that begins at `at`.
+std::size_t EndOfPicture(const std::string& bytes, std::size_t at) {
+  const std::size_t floats = testing::NumberAt<std::uint32_t>(bytes, at + 16) +
+                             testing::NumberAt<std::uint32_t>(bytes, at + 20);
+  return at + (32 + 4 * floats + testing::NumberAt<std::uint32_t>(bytes, at + 24) + 7) / 8 * 8;
+}
+
+/// Where each message of /pictures.bin begins, if there are only pictures.
 std::vector<std::size_t> PicturesIn(const std::string& bytes) {
   std::vector<std::size_t> begins;
   for (std::size_t at = 0; at + 32 <= bytes.size() && bytes[at] == 3;) {
     begins.push_back(at);
-    const std::size_t floats = testing::NumberAt<std::uint32_t>(bytes, at + 16) +
-                               testing::NumberAt<std::uint32_t>(bytes, at + 20);
-    at += (32 + 4 * floats + testing::NumberAt<std::uint32_t>(bytes, at + 24) + 7) / 8 * 8;
+    at = EndOfPicture(bytes, at);
   }
   return begins;
 }
@@ -127,15 +133,38 @@ TEST_F(TakeSiteTest, GivesThePictureOfEachCameraThatHasTheFrame) {
       << "going back";
 }
 
+TEST_F(TakeSiteTest, KeypointsFollowThePicturesOfTheirCamera) {
+  const std::string camera = TakePictures(take_).cameras()[1].name;
+  std::ofstream(take_ / "keypoints.csv")
+      << "camera,timestamp_ns,person,name,x_px,y_px,score\n"
+      << camera << ',' << kFirstNs + 5 * kPeriodNs << ",1,nose,10,20,0.5\n"
+      << "elsewhere," << kFirstNs + 5 * kPeriodNs << ",1,nose,10,20,0.5\n";
+  TakeSite site(take_, {});
+  const auto views = [&site](const std::string& frame) {
+    const std::string bytes = Get(site, "/pictures.bin", {{"frame", frame}});
+    std::vector<std::size_t> cameras;
+    for (std::size_t at = 0; at < bytes.size() && bytes[at] != 2;) {
+      if (bytes[at] == 4) cameras.push_back(static_cast<std::size_t>(bytes[at + 1]));
+      at = bytes[at] == 4 ? at + 32 : EndOfPicture(bytes, at);
+    }
+    return cameras;
+  };
+  EXPECT_TRUE(views("4").empty()) << "they are of a later moment";
+  EXPECT_EQ(views("5"), std::vector<std::size_t>{1});
+  EXPECT_EQ(views("14"), std::vector<std::size_t>{1}) << "they have not faded yet";
+  EXPECT_TRUE(views("16").empty());
+}
+
+TEST_F(TakeSiteTest, KeypointsThatCannotBeReadAreRefused) {
+  std::ofstream(take_ / "keypoints.csv") << "nose\n";
+  EXPECT_THROW(TakeSite(take_, {}), SetupError);
+}
+
 TEST_F(TakeSiteTest, SilhouettesAndVoxelsComeOnceTheEmptyStudioIsLearned) {
   TakeSite site(take_, {});
   // It is learned in threads of their own, and no answer waits for them.
   const auto has_voxels = [](const std::string& bytes) {
-    const std::size_t last = PicturesIn(bytes).back();
-    const std::size_t floats = testing::NumberAt<std::uint32_t>(bytes, last + 16) +
-                               testing::NumberAt<std::uint32_t>(bytes, last + 20);
-    const std::size_t end =
-        last + (32 + 4 * floats + testing::NumberAt<std::uint32_t>(bytes, last + 24) + 7) / 8 * 8;
+    const std::size_t end = EndOfPicture(bytes, PicturesIn(bytes).back());
     return end < bytes.size() && bytes[end] == 2;
   };
   std::string bytes = Get(site, "/pictures.bin", {{"frame", "3"}, {"result", "0"}});

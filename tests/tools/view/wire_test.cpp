@@ -122,5 +122,23 @@ TEST(Wire, APictureCarriesItsLinesAndItsJpeg) {
   EXPECT_EQ(testing::NumberAt<float>(PictureBytes(picture), 28), 0.25F);
 }
 
+TEST(Wire, KeypointsLieWhereThePageReadsThem) {
+  const KeypointView view{
+      .camera = "cam3",
+      .capture_ns = 1'500'250'000,
+      .person = 300,
+      .points = {{Landmark::kShoulderL, {10.5F, 20}, 0.25F}, {Landmark::kSmallToeR, {30, 40}, 1}}};
+  const std::string bytes = KeypointBytes(view, 3);
+  ASSERT_EQ(bytes.size(), 16u + 2 * 16);
+  EXPECT_EQ(bytes.substr(0, 4), std::string("\4\3\2\0", 4));
+  EXPECT_EQ(testing::NumberAt<std::uint32_t>(bytes, 4), 300u);
+  EXPECT_EQ(testing::NumberAt<double>(bytes, 8), 1500.25);
+  EXPECT_EQ(testing::NumberAt<float>(bytes, 16), 9);
+  EXPECT_EQ(testing::NumberAt<float>(bytes, 20), 10.5F);
+  EXPECT_EQ(testing::NumberAt<float>(bytes, 24), 20);
+  EXPECT_EQ(testing::NumberAt<float>(bytes, 28), 0.25F);
+  EXPECT_EQ(testing::NumberAt<float>(bytes, 32), 31);
+}
+
 }  // namespace
 }  // namespace mocap

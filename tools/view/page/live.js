@@ -8,7 +8,7 @@ import {OLD_MS, People} from './people.js';
 import {Socket} from './socket.js';
 import {StatePanel, conclusionOf} from './state_panel.js';
 import {ageText, fixed} from './text.js';
-import {decodeAll, decodePicture, decodePose, decodeVoxels, kindOf, PICTURE, POSE, VOXELS} from './wire.js';
+import {decodeAll, decodeKeypoints, decodePicture, decodePose, decodeVoxels, KEYPOINTS, kindOf, PICTURE, POSE, VOXELS} from './wire.js';
 
 const OLD_PICTURE_MS = 2000;
 const TELL_MS = 250;  // Text and numbers change at most four times a second.
@@ -26,6 +26,7 @@ export class Live {
     this.toldMs = 0;
     this.notice = {pictures: '', silence: '', control: ''};
     this.pictureTimes = new Map();
+    this.keypoints = new Map();  // number of the camera → views
     this.panel = new StatePanel();
     this.latency = new LatencyPlot();
     this.actions = new Actions();
@@ -96,6 +97,8 @@ export class Live {
         this.people.takeVoxels(decodeVoxels(buffer));
       else if (kind === PICTURE)
         this.takePicture(decodePicture(buffer));
+      else if (kind === KEYPOINTS)
+        this.takeKeypoints(decodeAll(buffer, decodeKeypoints));
     } catch (error) {
       // A truncated message; the next one comes soon.
       if (!(error instanceof RangeError)) throw error;
@@ -111,7 +114,13 @@ export class Live {
     const camera = this.cameras[picture.camera];
     if (!camera) return;
     this.pictureTimes.set(camera.name, picture.timeMs);
-    this.pictures.take(picture);
+    this.pictures.take({...picture, keypoints: this.keypoints.get(picture.camera) ?? []});
+  }
+
+  /** Keeps the views of one camera for its next pictures. */
+  takeKeypoints(views) {
+    this.keypoints.set(views[0].camera, views);
+    this.pictures.tellKeypoints();
   }
 
   draw(nowMs, fps) {

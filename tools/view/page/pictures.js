@@ -1,7 +1,8 @@
-// The strip of cameras: each picture with trimap and body, and the camera's state.
+// The strip of cameras: each picture with trimap, body and keypoints, and the camera's state.
 
 import {CAMERA_LOOKS} from './camera_models.js';
-import {fitCanvas, make, setText} from './dom.js';
+import {byId, fitCanvas, make, setText} from './dom.js';
+import {drawKeypoints} from './keypoints.js';
 import {drawLines, drawTrimap} from './picture_lines.js';
 import {percent} from './text.js';
 import {onTheme} from './theme.js';
@@ -69,7 +70,7 @@ class CameraCard {
     this.isDecoding = false;
   }
 
-  draw() {
+  draw(hasKeypoints) {
     this.isDrawn = true;
     if (this.picture) setText(this.unknown, unknownText(this.picture.unknownShare));
     if (!this.bitmap || this.canvas.clientWidth === 0) return;
@@ -77,6 +78,9 @@ class CameraCard {
     const context = fitCanvas(this.canvas);
     context.drawImage(this.bitmap, 0, 0, width, height);
     drawLines(context, this.picture, width, height);
+    if (!hasKeypoints) return;
+    context.scale(width / this.picture.widthPx, height / this.picture.heightPx);
+    drawKeypoints(context, this.picture, width / this.picture.widthPx);
   }
 
   clear() {
@@ -108,9 +112,24 @@ export class Pictures {
     this.list = list;
     this.onChoose = onChoose;
     this.cards = [];
-    const redraw = () => this.cards.forEach((card) => card.draw());
-    onTheme(redraw);
-    new ResizeObserver(redraw).observe(list);
+    this.hasKeypoints = true;
+    onTheme(() => this.redraw());
+    new ResizeObserver(() => this.redraw()).observe(list);
+  }
+
+  redraw() {
+    for (const card of this.cards) card.draw(this.hasKeypoints);
+  }
+
+  /** Tells what keypoints are, once there are some. */
+  tellKeypoints() {
+    byId('keypoint-legend').hidden = false;
+  }
+
+  /** Shows or hides keypoints. */
+  setKeypoints(isOn) {
+    this.hasKeypoints = isOn;
+    this.redraw();
   }
 
   setCameras(cameras) {
@@ -123,7 +142,7 @@ export class Pictures {
     this.list.style.setProperty('--cameras', cameras.length);
   }
 
-  /** Takes a decoded picture. */
+  /** Takes a decoded picture, with the keypoints to draw over it. */
   take(picture) {
     this.cards[picture.camera]?.take(picture);
   }
@@ -131,7 +150,7 @@ export class Pictures {
   /** Draws all new pictures together, as a browser composes the page after each. */
   draw() {
     for (const card of this.cards) {
-      if (!card.isDrawn) card.draw();
+      if (!card.isDrawn) card.draw(this.hasKeypoints);
     }
   }
 
@@ -146,7 +165,7 @@ export class Pictures {
     }
   }
 
-  /** Draws a camera's picture and trimap behind the scene. @return whether there is one. */
+  /** Draws a camera's picture with its overlays behind the scene. @return whether there is one. */
   drawBehind(name, canvas, box) {
     const card = this.card(name);
     canvas.hidden = !box || !card?.bitmap;
@@ -158,6 +177,7 @@ export class Pictures {
     context.translate(box.left, box.top);
     context.scale(scale, box.height / card.picture.heightPx);
     drawTrimap(context, card.picture, scale);
+    if (this.hasKeypoints) drawKeypoints(context, card.picture, scale);
     context.restore();
     return true;
   }

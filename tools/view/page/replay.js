@@ -9,7 +9,7 @@ import {SeenFetcher} from './seen_fetcher.js';
 import {figureColor} from './theme.js';
 import {frameAt, PlayHead} from './timeline.js';
 import {TimelineView} from './timeline_view.js';
-import {decodeAll, decodePose, PICTURE, STATES, VOXELS} from './wire.js';
+import {decodeAll, decodePose, KEYPOINTS, PICTURE, STATES, VOXELS} from './wire.js';
 
 const APART_MM = 1200;
 
@@ -95,11 +95,14 @@ export class Replay {
   takeSeen(seen) {
     this.pictureTimes.clear();
     for (const voxels of seen.filter(({kind}) => kind === VOXELS)) this.hull?.voxels.take(voxels);
+    const views = seen.filter(({kind}) => kind === KEYPOINTS);
+    if (views.length > 0) this.pictures.tellKeypoints();
     for (const picture of seen.filter(({kind}) => kind === PICTURE)) {
       const camera = this.take.studio.cameras[picture.camera];
       if (!camera) continue;
       this.pictureTimes.set(camera.name, picture.timeMs);
-      this.pictures.take(picture);
+      const keypoints = views.filter((view) => view.camera === picture.camera);
+      this.pictures.take({...picture, keypoints});
     }
     this.tellCameras();
   }

@@ -2,7 +2,7 @@
 
 import {byId, make, setText} from './dom.js';
 import {doubtText} from './doubt.js';
-import {ageText, bytesText, clockText, fixed, partText, withoutNumbers} from './text.js';
+import {ageText, bytesText, clockText, fixed, partText, percent, withoutNumbers} from './text.js';
 
 /** What the figures show of a status as `mocap status --json` has it. */
 const FIGURES = {
@@ -76,6 +76,26 @@ function tellPerson(row, {color, label, state, doubt, residualMm, followedS, has
   setText(since, hasCome || followedS === null ? age : `≥ ${age}`);
 }
 
+function makeSenderRow() {
+  return make('tr', {}, make('th', {scope: 'row'}), make('td'), make('td'), make('td'));
+}
+
+function tellSender(row, {name, views_per_second: rate, lag_ms: lagMs, agreement, poor}) {
+  const [who, rateCell, lag, agrees] = row.children;
+  setText(who, name);
+  setText(rateCell, fixed(rate, 1));
+  setText(lag, fixed(lagMs));
+  setText(agrees, agreement === null ? '–' : percent(agreement));
+  agrees.dataset.tone = poor.includes('agreement') ? 'warn' : '';
+}
+
+/** Tells rows of a table; adds and removes lines as needed. */
+function tellRows(list, rows, makeRow, tellRow) {
+  while (list.children.length > rows.length) list.lastChild.remove();
+  while (list.children.length < rows.length) list.append(makeRow());
+  rows.forEach((row, i) => tellRow(list.children[i], row));
+}
+
 export class StatePanel {
   constructor() {
     this.said = '';
@@ -125,6 +145,8 @@ export class StatePanel {
     byId('background').title = status.background.where;
     byId('recording').hidden = status.recording.state === 'none';
     byId('recording').dataset.state = status.recording.state;
+    byId('senders').hidden = status.keypoints.length === 0;
+    tellRows(byId('sender-list'), status.keypoints, makeSenderRow, tellSender);
   }
 
   /** @param pose the newest pose; null if nobody is present. */
@@ -138,10 +160,7 @@ export class StatePanel {
   setPeople(rows) {
     byId('people').hidden = rows.length < 2;
     setText(byId('sizes-of'), rows.length < 2 ? 'Subject' : rows[0].label);
-    const list = byId('people-list');
-    while (list.children.length > rows.length) list.lastChild.remove();
-    while (list.children.length < rows.length) list.append(makePersonRow());
-    rows.forEach((row, i) => tellPerson(list.children[i], row));
+    tellRows(byId('people-list'), rows, makePersonRow, tellPerson);
   }
 
   setBody(body) {

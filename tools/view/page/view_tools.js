@@ -9,7 +9,8 @@ const LAYER_KEYS = {
   j: 'joints',
   v: 'voxels',
   t: 'trails',
-  c: 'cameras'
+  c: 'cameras',
+  k: 'keypoints'
 };
 
 export class ViewTools {
@@ -19,7 +20,7 @@ export class ViewTools {
     this.pictures = pictures;
     this.names = [];
     for (const box of byId('layers').querySelectorAll('input')) {
-      box.addEventListener('change', () => scene?.setLayer(box.dataset.layer, box.checked));
+      box.addEventListener('change', () => this.setLayer(box.dataset.layer, box.checked));
     }
     byId('view-from')
         .addEventListener('change', ({target}) => this.seeThrough(target.value || null));
@@ -46,6 +47,13 @@ export class ViewTools {
       this.scene?.orbit.reset();
     });
     bindKeys(['f'], ['F'], 'look at the people', () => this.lookAtPeople());
+  }
+
+  setLayer(layer, isOn) {
+    if (layer === 'keypoints')
+      this.pictures.setKeypoints(isOn);
+    else
+      this.scene?.setLayer(layer, isOn);
   }
 
   toggleLayer(layer) {

@@ -7,11 +7,14 @@ export const BRIDGED = STATES.indexOf('bridged');  // Only in takes that were so
 export const POSE = 1;
 export const VOXELS = 2;
 export const PICTURE = 3;
+export const KEYPOINTS = 4;
 
 const POSE_HEADER_BYTES = 316;
 const CAPSULE_FLOATS = 8;
 const VOXELS_HEADER_BYTES = 32;
 const PICTURE_HEADER_BYTES = 32;
+const KEYPOINTS_HEADER_BYTES = 16;
+const KEYPOINT_FLOATS = 4;  // landmark, x, y, score
 const POINT_COUNT = 23;
 const DOUBT_BYTES = 12;  // id and probabilities
 const CONTACT_FLOATS = 4;  // place and probability
@@ -134,10 +137,26 @@ export function decodePicture(buffer, begin = 0) {
   };
 }
 
-/** Decodes a picture or voxels of a take, by `kind`. */
+/** Decodes the keypoints of one person: `points` has landmark, x, y [px] and score of each. */
+export function decodeKeypoints(buffer, begin = 0) {
+  require(buffer, begin + KEYPOINTS_HEADER_BYTES);
+  const view = new DataView(buffer, begin);
+  const count = KEYPOINT_FLOATS * view.getUint16(2, true);
+  const end = begin + KEYPOINTS_HEADER_BYTES + 4 * count;
+  require(buffer, end);
+  return {
+    camera: view.getUint8(1),
+    person: view.getUint32(4, true),
+    timeMs: view.getFloat64(8, true),
+    points: floats(buffer, begin + KEYPOINTS_HEADER_BYTES, count),
+    end,
+  };
+}
+
+/** Decodes a picture, keypoints or voxels of a take, by `kind`. */
 export function decodeSeen(buffer, begin = 0) {
   const kind = kindOf(buffer, begin);
-  const decode = kind === VOXELS ? decodeVoxels : decodePicture;
+  const decode = {[VOXELS]: decodeVoxels, [KEYPOINTS]: decodeKeypoints}[kind] ?? decodePicture;
   return {kind, ...decode(buffer, begin)};
 }
 

@@ -34,6 +34,7 @@ function picture(timeMs, camera = 0, more = {}) {
     unknown: [],
     unknownShare: -1,
     body: [],
+    keypoints: [],
     ...more
   };
 }
@@ -105,6 +106,25 @@ test('unknown pixels are hatched within their lines, people are not', async () =
         calls.filter(([name]) => name === 'clip'), new Array(clips).fill(['clip', 'evenodd']));
     assert.equal(calls.filter(([name]) => name === 'stroke').length, 1);
   }
+});
+
+function callsOf(pictures, name) {
+  return pictures.card('front').canvas.context.calls.filter(([call]) => call === name);
+}
+
+test('keypoints lie on pixel centres over the picture, until they are hidden', async () => {
+  const {pictures, decoding} = open();
+  const view = {timeMs: 1, points: Float32Array.from([9, 10, 20, 1, 10, 30, 20, 1])};
+  pictures.take(picture(1, 0, {keypoints: [view]}));
+  decoding[0].done();
+  await settle();
+  pictures.draw();
+  assert.deepEqual(callsOf(pictures, 'lineTo').at(-1), ['lineTo', 30.5, 20.5]);
+  const drawn = callsOf(pictures, 'arc').length;
+  assert.ok(drawn >= 2);
+  pictures.setKeypoints(false);
+  assert.equal(callsOf(pictures, 'drawImage').length, 2);
+  assert.equal(callsOf(pictures, 'arc').length, drawn);
 });
 
 test('a camera tells how much of the people it does not know, if anybody was there', async () => {

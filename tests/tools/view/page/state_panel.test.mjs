@@ -18,6 +18,7 @@ const STATUS = {
   background: {where: '/var/b', made_s: 0},
   bytes_free: 4e9,
   recording: {state: 'running', folder: '/takes/walk', seconds: 65, dropped: 3},
+  keypoints: [],
   poor: ['bytes_free'],
 };
 
@@ -60,4 +61,21 @@ test('a recording is told while there is one', () => {
   const page = open(STATUS);
   assert.deepEqual([page.recording.hidden, page.recording.dataset.state], [false, 'running']);
   assert.ok(open({...STATUS, recording: {...STATUS.recording, state: 'none'}}).recording.hidden);
+});
+
+test('who sends keypoints is listed, and who disagrees is marked', () => {
+  const sender = {name: 'witness', views_per_second: 2.96, lag_ms: 240.4, agreement: 0.2};
+  const other = {name: 'lab', views_per_second: 30, lag_ms: 12, agreement: null, poor: []};
+  const [section, list] = ['senders', 'sender-list'].map(freshElement);
+  open({...STATUS, keypoints: [{...sender, poor: ['agreement']}, other]});
+  assert.equal(section.hidden, false);
+  const [first, second] = list.children.map(({children}) => children);
+  assert.deepEqual(
+      first.map(({textContent}) => textContent), ['witness', '3.0', '240', '20\u00a0%']);
+  assert.equal(first[3].dataset.tone, 'warn');
+  assert.equal(second[3].textContent, '–');
+  assert.equal(second[3].dataset.tone, '');
+  freshElement('sender-list');
+  open(STATUS);
+  assert.ok(section.hidden);
 });

@@ -1,7 +1,7 @@
 import assert from 'node:assert/strict';
 import test from 'node:test';
 
-import {decodeAll, decodePicture, decodePose, decodeVoxels, kindOf, splitLines} from '../../../../tools/view/page/wire.js';
+import {decodeAll, decodeKeypoints, decodePicture, decodePose, decodeSeen, decodeVoxels, kindOf, splitLines} from '../../../../tools/view/page/wire.js';
 
 function poseBytes({person = 0, id = 0, capsules = 2, frame = 7, rival = 0} = {}) {
   const buffer = new ArrayBuffer(392 + 32 * capsules + (rival > 0 ? 276 : 0));
@@ -127,6 +127,32 @@ test('pictures that stand one after the other are found behind their padding', (
   assert.equal(first.body[0].side, 1);
   assert.deepEqual([...first.jpeg], [1, 2, 3]);
   assert.equal(second.camera, 5);
+});
+
+function keypointBytes({camera = 0, person = 0, points = [9, 1, 2, 0.5]} = {}) {
+  const buffer = new ArrayBuffer(16 + 4 * points.length);
+  const view = new DataView(buffer);
+  view.setUint8(0, 4);
+  view.setUint8(1, camera);
+  view.setUint16(2, points.length / 4, true);
+  view.setUint32(4, person, true);
+  view.setFloat64(8, 1234.5, true);
+  points.forEach((value, i) => view.setFloat32(16 + 4 * i, value, true));
+  return buffer;
+}
+
+test('keypoints are read view by view, and between the pictures of a take', () => {
+  const first = keypointBytes({camera: 3, person: 300, points: [9, 1, 2, 0.5, 10, 3, 4, 1]});
+  const views = decodeAll(joined(first, keypointBytes()), decodeKeypoints);
+  assert.equal(views[0].camera, 3);
+  assert.equal(views[0].person, 300);
+  assert.equal(views[0].timeMs, 1234.5);
+  assert.deepEqual([...views[0].points], [9, 1, 2, 0.5, 10, 3, 4, 1]);
+  assert.deepEqual([...views[1].points], [9, 1, 2, 0.5]);
+  const seen = decodeAll(joined(pictureBytes(), first, pictureBytes()), decodeSeen);
+  assert.deepEqual(seen.map(({kind}) => kind), [3, 4, 3]);
+  for (let end = 0; end < first.byteLength; ++end)
+    assert.throws(() => decodeKeypoints(first.slice(0, end)), RangeError);
 });
 
 test('a line tells a side, and whose it is of several people', () => {
