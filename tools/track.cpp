@@ -6,6 +6,7 @@
 #include <cstdio>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -18,6 +19,7 @@
 #include "daemon/pipeline/pipeline.h"
 #include "drivers/clock.h"
 #include "drivers/printable_text.h"
+#include "tools/recorded_keypoints.h"
 #include "tools/results/result_sink.h"
 #include "tools/results/take_identity.h"
 #include "tools/stop_on_signals.h"
@@ -32,6 +34,7 @@ struct TrackOptions {
   std::string body;  ///< Empty: the tracker's default.
   std::string tracker = Trackers().front().name;
   std::int64_t first = 0;
+  std::optional<std::filesystem::path> keypoints;
   bool measure = false;
   bool json = false;
 };
@@ -67,6 +70,14 @@ SetupError NothingToTrack(const TrackOptions& options, const PipelineStatus& sta
                     std::to_string(sets - 1));
 }
 
+std::unique_ptr<KeypointSource> KeypointsOf(const TrackOptions& options,
+                                            std::span<const CameraCalibration> cameras) {
+  if (!options.keypoints) return nullptr;
+  std::vector<std::string> names;
+  for (const CameraCalibration& camera : cameras) names.push_back(camera.name);
+  return std::make_unique<RecordedKeypoints>(*options.keypoints, names);
+}
+
 void Track(const TrackOptions& options) {
   StopOnSignals();
   const NamedTracker& tracker = TrackerOf(options.tracker);
@@ -76,7 +87,7 @@ void Track(const TrackOptions& options) {
   RequireOut(options.tracked, new_folder);
   ResultSink sink(options.tracked.people ? KeptPeople::kEverybody : KeptPeople::kFirst,
                   isatty(STDERR_FILENO) == 1, MarkOf(options.tracked.take));
-  const std::unique_ptr<KeypointSource> keypoints = KeypointsOf(options.tracked, studio);
+  const std::unique_ptr<KeypointSource> keypoints = KeypointsOf(options, cameras);
   const OpenElsewhere masked = MaskedCamerasOf(options.tracked, studio);
   Pipeline pipeline(std::move(studio),
                     {.voxel_mm = options.voxel_mm,
@@ -131,6 +142,8 @@ void AddTrackCommand(CLI::App& app) {
                    "number of the first frame set to track; earlier ones are left out")
       ->check(NumberFrom(0, 1e9))
       ->capture_default_str();
+  command->add_option("--keypoints", options->keypoints,
+                      "weigh these keypoints of people in pictures, as mocap witness writes them");
   command->add_flag("--measure", options->measure,
                     "measure the person's sizes even if the take contains them");
   command->add_flag("--json", options->json, "print one JSON object");

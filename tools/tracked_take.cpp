@@ -16,7 +16,6 @@
 #include "drivers/nearest_name.h"
 #include "drivers/take/input_file.h"
 #include "drivers/take/take_layout.h"
-#include "tools/recorded_keypoints.h"
 #include "tools/remarks.h"
 
 namespace mocap {
@@ -77,8 +76,6 @@ void AddTakeOptions(CLI::App& command, TrackedTake& tracked) {
           "(default folder: the take's silhouette)")
       ->expected(0, 1)
       ->type_name("[DIR]");
-  command.add_option("--keypoints", tracked.keypoints,
-                     "weigh these keypoints of people in pictures, as `mocap witness` writes them");
 }
 
 Studio OpenTrackedTake(const TrackedTake& tracked, double voxel_mm) {
@@ -91,13 +88,6 @@ Studio OpenTrackedTake(const TrackedTake& tracked, double voxel_mm) {
 
 OpenElsewhere MaskedCamerasOf(const TrackedTake& tracked, Studio& studio) {
   return tracked.masks ? TakeMaskedCameras(studio) : nullptr;
-}
-
-std::unique_ptr<KeypointSource> KeypointsOf(const TrackedTake& tracked, const Studio& studio) {
-  if (!tracked.keypoints) return nullptr;
-  std::vector<std::string> names;
-  for (const auto& camera : studio.cameras) names.push_back(camera.calibration.name);
-  return std::make_unique<RecordedKeypoints>(*tracked.keypoints, names);
 }
 
 std::optional<KnownPerson> SubjectOf(const TrackedTake& tracked) {

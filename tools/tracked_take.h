@@ -4,7 +4,6 @@
 #include <CLI/CLI.hpp>
 #include <filesystem>
 #include <map>
-#include <memory>
 #include <optional>
 #include <span>
 #include <string>
@@ -24,11 +23,10 @@ struct TrackedTake {
   std::filesystem::path out = {};
   std::vector<std::string> cameras = {};            ///< Empty: all.
   std::optional<std::filesystem::path> masks = {};  ///< An empty path: the take's own.
-  std::optional<std::filesystem::path> keypoints = {};
-  std::optional<int> people = {};  ///< Without: one, whose result is the take's.
+  std::optional<int> people = {};                   ///< Without: one, whose result is the take's.
 };
 
-/// Adds TAKE, --out, --cameras, --people, --masks and --keypoints. @param tracked  outlives the
+/// Adds TAKE, --out, --cameras, --people and --masks. @param tracked  outlives the
 /// command.
 void AddTakeOptions(CLI::App& command, TrackedTake& tracked);
 
@@ -37,8 +35,6 @@ void AddTakeOptions(CLI::App& command, TrackedTake& tracked);
 Studio OpenTrackedTake(const TrackedTake& tracked, double voxel_mm);
 /// Opens masks instead of pictures; null if none are asked for.
 OpenElsewhere MaskedCamerasOf(const TrackedTake& tracked, Studio& studio);
-/// Reads the given keypoints; null if there are none.
-std::unique_ptr<KeypointSource> KeypointsOf(const TrackedTake& tracked, const Studio& studio);
 /// The person's sizes, if the take contains them.
 std::optional<KnownPerson> SubjectOf(const TrackedTake& tracked);
 /// Checks that the result can be written.

@@ -38,7 +38,7 @@ const std::array<Row, kLandmarkCount> kRows = {{
     {"pinky", "", Side::kRight, Point::kKnucklesR, {0, 0, 0}},
     {"index", "", Side::kLeft, Point::kKnucklesL, {0, 0, 0}},
     {"index", "", Side::kRight, Point::kKnucklesR, {0, 0, 0}},
-    {"hip_middle", "hip", Side::kMiddle, Point::kTorso, {0, 0, 0}},
+    {"hip_middle", "hip", Side::kMiddle, Point::kHipL, {8, 0, -19}},
     {"hip", "", Side::kLeft, Point::kHipL, {8, -1, -19}},
     {"hip", "", Side::kRight, Point::kHipR, {8, -1, -19}},
     {"knee", "", Side::kLeft, Point::kKneeL, {-13, 0, -6}},
@@ -108,9 +108,11 @@ LandmarkPlaces PlaceLandmarks(const BodyModel& body) {
   for (int i = 0; i < kLandmarkCount; ++i) {
     const Row& row = kRows[i];
     const Vector3 from_left(1, row.side == Side::kRight ? -1 : 1, 1);
+    const Vector3 in_plane(1, row.side == Side::kMiddle ? 0 : 1, 1);
     places[i].carrier = body.CarrierOf(row.point);
-    places[i].p_T = body.reference_points_T().col(static_cast<int>(row.point)) +
-                    thousandth_mm * row.offset.cwiseProduct(from_left);
+    const Vector3 point_T = body.reference_points_T().col(static_cast<int>(row.point));
+    places[i].p_T =
+        point_T.cwiseProduct(in_plane) + thousandth_mm * row.offset.cwiseProduct(from_left);
   }
   return places;
 }

@@ -16,8 +16,6 @@ constexpr Iterations kIterations{8, 8};
 // Graduated non-convexity (Blake and Zisserman 1987): factors of the noise, one fit after the
 // other.
 constexpr std::array<double, 4> kWidths = {16, 6, 2.5, 1};
-// The keypoints' fit leaves limbs this far from the evidence.
-constexpr double kLeft_mm = 50, kLeft_rad = 0.3;
 
 void FitToKeypoints(const BodyModel& body, std::span<const KeypointRays> views, double width,
                     PoseFilter& filter) {
@@ -72,7 +70,7 @@ std::optional<PoseState> ProposeByKeypoints(Objective& objective, const Hypothes
     best = filter.pose();
   }
   if (!best) return std::nullopt;
-  filter.Reset(*best, kLeft_mm, kLeft_rad);
+  filter.Jump(*best);
   DrawNear(objective, body, present.things, {}, filter);
   return filter.is_sound() ? std::optional(filter.pose()) : std::nullopt;
 }

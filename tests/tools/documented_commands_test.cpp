@@ -54,6 +54,7 @@ constexpr std::array kUnrun = {
     Unrun{"mocap gait filmed", "needs videos of phones"},
     Unrun{"mocap export session.lcm", "needs a log of a daemon"},
     Unrun{"mocap witness", "needs a pose network"},
+    Unrun{"mocap track walk --out result --keypoints", "needs a pose network"},
 };
 
 struct Command {

@@ -83,7 +83,7 @@ class InstalledTest(unittest.TestCase):
 
     def test_units_start_what_is_installed(self):
         units = glob.glob(self.prefix + "/lib/systemd/system/mocapd*.service")
-        self.assertEqual(len(units), 3)
+        self.assertEqual(len(units), 4)
         paths = re.findall(re.escape(self.prefix) + r"[\w/.]+", "".join(read(unit) for unit in units))
         self.assertEqual({os.path.relpath(path, self.prefix) for path in paths},
                          {"bin/mocap", "bin/mocapd", "etc/mocapd/mocapd.toml"})
