@@ -16,6 +16,8 @@ namespace mocap {
 /// Reuses its memory.
 class KeypointDivision {
  public:
+  /// For a set without views: there are no shares.
+  void Clear() { shares_.clear(); }
   /// @param people     at the predicted poses.
   /// @param strangers  boxes around them.
   void Divide(std::span<const KeypointRays> views, std::span<const PosedBody> people,

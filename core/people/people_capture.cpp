@@ -202,6 +202,7 @@ void PeopleCapture::Divide(const VoxelGrid& grid) {
 }
 
 void PeopleCapture::DivideKeypoints(std::span<const KeypointRays> views, std::int64_t capture_ns) {
+  if (views.empty()) return keypoints_.Clear();
   std::vector<PosedBody> bodies(posed_member_.size());
   for (std::size_t i = 0; i < bodies.size(); ++i) {
     const MotionCapture& capture = *posed_member_[i]->capture;
@@ -236,7 +237,7 @@ void PeopleCapture::MeetStrangers(std::span<const CameraEye> eyes) {
     if (now_s_ - *member->waits_since_s < wanted_s) continue;
     member->flesh = &flesh;
     member->outlines = &share;
-    member->keypoints = keypoints_.shares()[posed_.size() + i];
+    if (!keypoints_.shares().empty()) member->keypoints = keypoints_.shares()[posed_.size() + i];
     member->box_W = AroundStranger(flesh.box_W);
   }
 }

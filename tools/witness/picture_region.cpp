@@ -4,38 +4,13 @@
 #include <cmath>
 #include <numbers>
 
+#include "core/evidence/body_in_picture.h"
+
 namespace mocap {
 namespace {
 
 /// What networks of this kind are trained with.
 constexpr double kMargin = 1.25;
-/// Nearer to the lens, or behind it, nothing is seen.
-constexpr double kNearest_mm = 100;
-
-std::optional<Vector2> PixelOf(const CameraCalibration& camera, const Vector3& p_C) {
-  if (p_C.z() < kNearest_mm) return std::nullopt;
-  return PixelFromNormalized(camera.lens, p_C.head<2>() / p_C.z());
-}
-
-bool IsInPicture(const CameraCalibration& camera, const Vector2& px) {
-  return px.x() >= 0 && px.y() >= 0 && px.x() <= camera.width_px - 1 &&
-         px.y() <= camera.height_px - 1;
-}
-
-void ExtendByBall(const CameraCalibration& camera, const Vector3& middle_C, double radius_mm,
-                  Eigen::AlignedBox2d& box_px) {
-  for (const double side : {-radius_mm, radius_mm})
-    for (const Vector3 towards : {Vector3::UnitX(), Vector3::UnitY()})
-      if (const auto px = PixelOf(camera, middle_C + side * towards)) box_px.extend(*px);
-}
-
-/// Turns by which the direction that shows upwards in the room becomes that in the picture.
-int TurnsAt(const CameraCalibration& camera, const RigidTransform& X_CW, const Vector3& p_W) {
-  const auto below = PixelOf(camera, X_CW * p_W);
-  const auto above = PixelOf(camera, X_CW * (p_W + 100 * Vector3::UnitZ()));
-  if (!below || !above) return 0;
-  return TurnsFor(*above - *below);
-}
 
 }  // namespace
 
@@ -58,25 +33,14 @@ CropMap MapOf(const PictureRegion& region, int crop_width_px, int crop_height_px
 
 std::optional<SeenBox> SeeBody(std::span<const PosedCapsule> capsules,
                                const CameraCalibration& camera, const RigidTransform& X_CW) {
-  Eigen::AlignedBox2d box_px;
-  Eigen::AlignedBox3d body_W;
-  std::size_t in_picture = 0;
-  for (const PosedCapsule& capsule : capsules) {
-    ExtendByBall(camera, X_CW * capsule.a_W, capsule.radius_a_mm, box_px);
-    ExtendByBall(camera, X_CW * capsule.b_W, capsule.radius_b_mm, box_px);
-    for (const Vector3& end_W : {capsule.a_W, capsule.b_W}) {
-      body_W.extend(end_W);
-      const auto px = PixelOf(camera, X_CW * end_W);
-      in_picture += px && IsInPicture(camera, *px);
-    }
-  }
-  if (box_px.isEmpty()) return std::nullopt;
+  const auto body = FindInPicture(capsules, camera, X_CW);
+  if (!body) return std::nullopt;
   SeenBox seen;
-  seen.in_picture = static_cast<double>(in_picture) / static_cast<double>(2 * capsules.size());
-  seen.box.turns = TurnsAt(camera, X_CW, body_W.center());
-  seen.box.middle_px = box_px.center();
-  seen.box.width_px = box_px.sizes()[seen.box.turns % 2];
-  seen.box.height_px = box_px.sizes()[1 - seen.box.turns % 2];
+  seen.in_picture = body->share;
+  seen.box.turns = body->up ? TurnsFor(*body->up) : 0;
+  seen.box.middle_px = body->box_px.center();
+  seen.box.width_px = body->box_px.sizes()[seen.box.turns % 2];
+  seen.box.height_px = body->box_px.sizes()[1 - seen.box.turns % 2];
   return seen;
 }
 
